@@ -6,6 +6,8 @@
 #include <stdio.h>
 
 #include "capstan/io.h"
+#include "check_motion.h"
+#include "coarse_steps.h"
 #include "commands.h"
 #include "options.h"
 #include "printable.h"
@@ -119,7 +121,8 @@ static void print_hydrostatics(const double *matrix) {
     }
 }
 
-static void print_body(const CpsBody *body) {
+static void print_body(const CpsScene *scene, int index) {
+    const CpsBody *body = &scene->body[index];
     static const char *const DIRECTION[] = {"x", "y", "z", "rx", "ry", "rz"};
     const double *x = body->position, *q = body->rotation, *g = body->centre_of_gravity,
                  *b = body->centre_of_buoyancy, *f = body->force, *m = body->moment;
@@ -141,6 +144,7 @@ static void print_body(const CpsBody *body) {
     if (is_free)
         printf("  force (%g, %g, %g) N, moment (%g, %g, %g) N m\n", f[0], f[1], f[2], m[0], m[1],
                m[2]);
+    if (check_in_time(scene)) check_print_body_motion(scene, index);
 }
 
 static void print_set(const CpsConstraint *on) {
@@ -190,6 +194,7 @@ static void print_point(const CpsScene *scene, const CpsPoint *point) {
     if (point->has_uplift_limit) printf(", uplift limit %g N", point->uplift_limit);
     if (point->drags) printf(", drags");
     if (is_free) printf(", force (%g, %g, %g) N", f[0], f[1], f[2]);
+    if (check_in_time(scene)) check_print_point_motion(point);
     print_set(&point->constraint);
     putchar('\n');
 }
@@ -290,6 +295,7 @@ static void print_line(const CpsScene *scene, const CpsLine *line) {
     for (int k = 0; k < line->zone_count; k++)
         printf("  friction from %g m to %g m: %g times\n", line->zone[k].from, line->zone[k].to,
                line->zone[k].factor);
+    check_print_line_motion(scene, line);
     print_end(scene, line, CPS_END_A);
     print_end(scene, line, CPS_END_B);
 }
@@ -319,9 +325,10 @@ static void print_scene(const CpsScene *scene) {
     printf("gravity (%g, %g, %g) m/s2\n", scene->gravity[0], scene->gravity[1], scene->gravity[2]);
     if (scene->has_water_surface)
         printf("surface of the water at z = %g m\n", scene->water_surface);
+    check_print_current(scene);
     print_waves(scene);
     for (int i = 0; i < scene->obstacle_count; i++) print_obstacle(&scene->obstacle[i]);
-    for (int i = 0; i < scene->body_count; i++) print_body(&scene->body[i]);
+    for (int i = 0; i < scene->body_count; i++) print_body(scene, i);
     for (int i = 0; i < scene->point_count; i++) print_point(scene, &scene->point[i]);
     for (int i = 0; i < scene->line_count; i++) print_line(scene, &scene->line[i]);
 
@@ -330,9 +337,11 @@ static void print_scene(const CpsScene *scene) {
     for (int i = 0; i < scene->line_count; i++)
         if (scene->line[i].start.kind == CPS_START_STATIC) steps = 1;
     for (int i = 0; i < scene->stage_count; i++) steps += scene->stage[i].step_count;
-    printf("history: %d entr%s, %s%d load step%s in all\nThe scene is valid.\n", scene->stage_count,
+    printf("history: %d entr%s, %s%d load step%s in all", scene->stage_count,
            scene->stage_count == 1 ? "y" : "ies", cli_has_pace(scene) ? "at least " : "", steps,
            steps == 1 ? "" : "s");
+    check_print_times(scene);
+    fputs("\nThe scene is valid.\n", stdout);
 }
 
 int cmd_check(int argc, char **argv) {
@@ -343,6 +352,7 @@ int cmd_check(int argc, char **argv) {
     CpsError err;
     if (cps_scene_read(options.operand, NULL, &file, &err) != CPS_OK) return cli_report(&err);
     print_scene(cps_scene_file_scene(file));
+    coarse_steps_warn(cps_scene_file_scene(file));
     cps_scene_file_destroy(file);
     return EXIT_OK;
 }

@@ -58,7 +58,7 @@ void progress_computes(Progress *progress, int known) {
 
 /* [s] until all steps are done; negative: not known */
 static double remaining(const Progress *progress, int done, double now) {
-    if (done <= progress->known) return -1;
+    if (!(progress->computing > 0) || done <= progress->known) return -1;
     return (now - progress->computing) / (done - progress->known) * (progress->steps - done);
 }
 

@@ -15,12 +15,14 @@
 #include "capstan/failure.h"
 #include "capstan/io.h"
 #include "capstan/results.h"
+#include "coarse_steps.h"
 #include "commands.h"
 #include "destination.h"
 #include "options.h"
 #include "printable.h"
 #include "progress.h"
 #include "run/end_table.h"
+#include "run/energy.h"
 #include "run/extremes.h"
 #include "run/regularized_options.h"
 #include "run/regularized_run.h"
@@ -373,9 +375,13 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         fputs(", ", stderr);
         print_unbalanced_body(stderr, scene->body[i].name, &body);
         if (!body.is_stable)
-            fputs("capstan: where nothing holds a body in a direction, as about the axis of a "
-                  "single line, give that direction as 'fixed'\n",
-                  stderr);
+            fputs(
+                cps_evolution_pace(evolution).length > 0
+                    ? "capstan: in time a body turns by less than half a turn in a step: take "
+                      "shorter steps\n"
+                    : "capstan: where nothing holds a body in a direction, as about the axis of a "
+                      "single line, give that direction as 'fixed'\n",
+                stderr);
     }
 }
 
@@ -423,6 +429,7 @@ typedef struct Run {
     Warnings warnings;
     Extremes extremes;
     EndTable ends;
+    Energy energy;
     FILE *table, *solutions;
     CpsOutcome worst;
     bool refused; /* a step could not begin; the steps before it are kept */
@@ -448,6 +455,7 @@ static CpsStatus keep_step(Run *run, CpsError *err) {
     progress_time(&run->progress, cps_evolution_time(run->evolution));
     progress_step(&run->progress, report.step_count, report.name);
     warnings_note_step(&run->warnings, run->scene, run->evolution);
+    energy_note_step(&run->energy, run->evolution);
     if (!extremes_note_step(&run->extremes, run->evolution)) {
         *err = (CpsError){.status = CPS_ERR_MEMORY, .message = "out of memory"};
         return CPS_ERR_MEMORY;
@@ -495,7 +503,10 @@ static CpsStatus take_steps(Run *run, CpsError *err) {
         if (status) return status;
     }
     progress_end(&run->progress);
-    if (!run->progress.quiet) warnings_print(&run->warnings);
+    if (!run->progress.quiet) {
+        coarse_steps_warn(run->scene);
+        warnings_print(&run->warnings);
+    }
     return CPS_OK;
 }
 
@@ -615,6 +626,7 @@ static int run(const CpsScene *scene, const char *directory, const CliOptions *o
         end_table_print(&run.ends, stdout);
         if (length > 0) printf("\n%s", said);
         extremes_print(&run.extremes, run.scene, run.evolution, stdout);
+        energy_print(&run.energy, stdout);
         print_utilisation(&run.warnings.utilisation);
         print_where(directory, run.evolution, options);
     }

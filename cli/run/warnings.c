@@ -92,14 +92,16 @@ static double exchanged(const CpsLedger *l) {
 /* Energy that the step created or released. The initial forces at held ends are not known, so their
  * work is known only to half of it. */
 static void note_energy(Warnings *warnings, const CpsStepReport *step, const CpsLineReport *line,
-                        const char *name) {
+                        const char *name, bool in_time) {
     const double beside = exchanged(&line->ledger), open = line->ledger.imbalance;
     const double freed = open - (step->step_count == 1 ? fabs(line->ledger.ends) : 0);
     const double known = line->certificate.gap + 1e-8 * line->certificate.scale;
-    if (line->unaccounted > 0)
-        note(&warnings->kind[WARNING_MADE], line->unaccounted, beside, step->name, name);
-    else if (line->jump_count == 0 && freed > WARN_FREED * beside && freed > known)
-        note(&warnings->kind[WARNING_FREED], freed, beside, step->name, name);
+    WorstCase *made = &warnings->kind[WARNING_MADE], *fell = &warnings->kind[WARNING_FREED];
+    if (line->unaccounted > 0) {
+        if (note(made, line->unaccounted, beside, step->name, name)) made->in_time = in_time;
+    } else if (line->jump_count == 0 && freed > WARN_FREED * beside && freed > known) {
+        if (note(fell, freed, beside, step->name, name)) fell->in_time = in_time;
+    }
 }
 
 /* [N] tension caused by rounding of the largest coordinate of an end, eps |x| EA/L; not defined for
@@ -229,7 +231,7 @@ void warnings_note_step(Warnings *warnings, const CpsScene *scene, const CpsEvol
             note(&warnings->utilisation, line.utilisation, begins + line.utilisation_arc_length,
                  step, name);
         if (line.outcome != CPS_OUTCOME_SOLVED) continue;
-        note_energy(warnings, &report, &line, name);
+        note_energy(warnings, &report, &line, name, cps_evolution_pace(evolution).length > 0);
         if (line.jump_count > 0)
             note(&warnings->kind[WARNING_JUMPED], line.jump, length, step, name);
         const double residual = line.certificate.friction_residual;
@@ -278,7 +280,13 @@ void warnings_print_bend(const CpsBend *bend, const char *obstacle) {
             bend->coulomb, bend->element);
 }
 
-static void print_figures(int kind, double value, double of) {
+/* What tells whether a line jumps: 'path_tolerance' divides no step in time. */
+static const char *cure(bool in_time) {
+    return in_time ? "shorter steps in time tell which"
+                   : "smaller load steps or a 'path_tolerance' tell which";
+}
+
+static void print_figures(int kind, double value, double of, bool in_time) {
     if (kind == WARNING_BOUND)
         fprintf(stderr,
                 "the friction bounds of the reference differ from mu R by %.4g N, of %.4g N in "
@@ -332,15 +340,14 @@ static void print_figures(int kind, double value, double of) {
     else if (kind == WARNING_MADE)
         fprintf(stderr,
                 "the energy does not close by %.4g J, beside %.4g J dissipated and worked: the "
-                "line jumps, takes another branch, or friction is that of the reference; smaller "
-                "load steps or a 'path_tolerance' tell which",
-                value, of);
+                "line jumps, takes another branch, or friction is that of the reference; %s",
+                value, of, cure(in_time));
     else if (kind == WARNING_FREED)
         fprintf(
             stderr,
             "%.4g J are set free, beside %.4g J dissipated and worked: the line falls or jumps, or "
-            "the load step is large; smaller load steps or a 'path_tolerance' tell which",
-            value, of);
+            "the load step is large; %s",
+            value, of, cure(in_time));
     else if (kind == WARNING_ROUNDED)
         fprintf(stderr,
                 "coordinates are so large that their last digit is worth %.4g N of tension, of "
@@ -377,7 +384,7 @@ void warnings_print(const Warnings *warnings) {
             fputs("the mesh is coarse for a bend", stderr);
             warnings_print_bend(&warnings->bend, worst->obstacle);
         } else
-            print_figures(k, worst->value, worst->of);
+            print_figures(k, worst->value, worst->of, worst->in_time);
         if (worst->steps > 1) fprintf(stderr, " (the worst of %d)", worst->steps);
         fputc('\n', stderr);
     }

@@ -35,6 +35,7 @@ typedef struct WorstCase {
     int steps;        /* number of steps in which it occurred */
     double value, of; /* the value, and the value that it is a share of, or its arc length */
     char step[96], line[96], obstacle[96]; /* line: or point */
+    bool in_time;                          /* of energies: in a step in time */
 } WorstCase;
 
 /* The worst case of each kind. */

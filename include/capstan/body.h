@@ -36,6 +36,15 @@ typedef struct CpsExcitation {
     double lead[CPS_BODY_DIRECTIONS];      /* [rad] */
 } CpsExcitation;
 
+/* A row of the table of memory of radiation: the force and moment per displacement that a body has
+ * had this long ago, K_ij of component i by direction j, in the axes of the body. */
+typedef struct CpsRadiation {
+    double time;       /* [s] >= 0 */
+    double kernel[36]; /* (6, 6) [N/m, N, N m] */
+} CpsRadiation;
+
+enum { CPS_MAX_RADIATION = 10000 };
+
 enum { CPS_MAX_MEMBERS = 200, CPS_MAX_STRIPS = 1000, CPS_MEMBER_STRIPS = 20 };
 
 /* A straight cylinder of a body, on which the water acts by Morison's formula as far as it is below
@@ -92,9 +101,17 @@ typedef struct CpsBody {
     /* In steps in time, of at most CPS_MAX_WAVES rows, those of one direction with periods that
      * increase; default 0 and NULL: waves do nothing to it. Between two rows amplitude exp(i lead)
      * is linear in the frequency; each of the scene's waves is at a row or between two of its
-     * direction. Memory of radiation, drift and the second order are not in it */
+     * direction. Drift and the second order are not in it */
     int excitation_count;
     const CpsExcitation *excitation;
+    /* In steps in time, of 0, the default, or 2 to CPS_MAX_RADIATION rows at the times 0, g, 2 g
+     * ..: force and moment minus the integral of K(s) u(t - s) over s, with K linear between rows
+     * and 0 after them, and u the velocities as of damping, which were 0 before the history began
+     * and are so again after a quasi-static step. added_mass is that of infinite frequency then.
+     * The first row takes energy in every motion, or none; whether the table does at all
+     * frequencies, as that of a body in water does, is not checked */
+    int radiation_count;
+    const CpsRadiation *radiation;
     int member_count; /* <= CPS_MAX_MEMBERS, default 0 */
     const CpsMember *member;
 } CpsBody;

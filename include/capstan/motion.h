@@ -21,7 +21,7 @@
  * time, and those at which an element is snatched taut, are Euler steps. A node that lands does not
  * rebound, but for what the ground gives (CpsObstacle). It needs Coulomb's law, contact that is
  * reached, and a scene without lines that part, winches and anchors that drag. Beside free points
- * and bodies lines are elastic, obstacles stay, and points do not float. The path tolerance has no
+ * and bodies lines are elastic, and points do not float. The path tolerance has no
  * effect on lines with inertia. Motions and loads that a function of the program makes of time and
  * state are those of follow.h.
  *
@@ -43,6 +43,7 @@ extern "C" {
 #endif
 
 struct CpsEvolution;
+struct CpsLedger;
 
 typedef enum CpsTimeScheme {
     CPS_TIME_SCHEME_BDF2, /* the default: of second order where the motion is smooth */
@@ -99,7 +100,7 @@ typedef struct CpsMotionLedger {
     double drag;     /* work done on the water against its drag; of a current also negative */
     double added;    /* work done on the water that is moved along (CpsDrag), which gives it back */
     double waves;    /* work of the water's own acceleration in waves (waves.h) on the line */
-    double turnover; /* sum of the sizes of all entries */
+    double turnover; /* sum of the sizes of all entries: what the imbalance is compared with */
 } CpsMotionLedger;
 
 /* The motion of a line in the last step. */
@@ -168,7 +169,8 @@ typedef struct CpsBodyMotion {
     double span;                /* [s] k */
     double kinetic;             /* [J] with that of the added mass */
     double dissipated;          /* [J] by damping */
-    CpsMotionLedger ledger;     /* no body lands; drag and waves are those on members */
+    CpsMotionLedger ledger;     /* no body lands; drag is that of members and of radiation, waves
+                                   are those on members */
     bool velocity_given;        /* by a change of it */
 } CpsBodyMotion;
 
@@ -184,6 +186,22 @@ CPS_API CpsPointMotion cps_evolution_point_motion_view(const struct CpsEvolution
 /* The motion of a line; of what is no line one of zeros. Arrays belong to the evolution, until its
  * next step. */
 CPS_API CpsLineMotion cps_evolution_line_motion(const struct CpsEvolution *evolution, int line);
+
+/* All lines, points and bodies in the last step: sums, of the bound the largest. `turnover` has
+ * that of lines without inertia too, also in a quasi-static step: the sizes of the entries of their
+ * ledgers. What lines, points and bodies do to each other counts in it where they have it apart. */
+typedef struct CpsStepMotion {
+    double kinetic;         /* [J] now */
+    CpsMotionLedger ledger; /* of the step, beside that of its report */
+    double position_bound;  /* [m] as of a line */
+    int landed, changed, snatched;
+} CpsStepMotion;
+
+CPS_API CpsStepMotion cps_evolution_motion(const struct CpsEvolution *evolution);
+
+/* Add the entries of the energy of a step to sums: `ledger` that of its report (step.h). */
+CPS_API void cps_ledgers_add(const struct CpsLedger *ledger, const CpsMotionLedger *motion,
+                             struct CpsLedger *sum, CpsMotionLedger *motion_sum);
 
 /* How long the last step was. Of a stage with an `error` (CpsStage) steps have different lengths,
  * at most duration / step_count: such that by its own estimate no step moves anything by more than

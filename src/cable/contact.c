@@ -186,6 +186,17 @@ static void leave_obstacle(CpsiLine *line, int c) {
     line->obstacle_index[c] = CPS_NO_OBSTACLE;
 }
 
+void cpsi_contact_leave(CpsiLine *line) {
+    for (int e = 0; e + 1 < line->n && line->element_contacts > 0; e++) {
+        const int c = cpsi_line_contacts(line) + e, on = line->obstacle_index[c];
+        double share, gap;
+        if (on >= 0 && line->state[c] == CPS_NODE_STATE_FREE &&
+            cpsi_obstacle_is_round(&line->obstacle[on]) && !(line->reaction[c] > 0) &&
+            !cpsi_contact_clearance(line, line->position, e, on, &share, &gap))
+            leave_obstacle(line, c);
+    }
+}
+
 void cpsi_contact_update_geometry(CpsiLine *line) {
     if (line->element_contacts > 0)
         for (int e = 0; e + 1 < line->n; e++) {

@@ -49,6 +49,9 @@ void cpsi_contact_clear(CpsiLine *line, int c);
  * axes, or with frozen friction. */
 void cpsi_contact_plane_slip(CpsiLine *line);
 
+/* After rounds: elements that bear nothing on what is round, and no longer face it, leave it. */
+void cpsi_contact_leave(CpsiLine *line);
+
 /* After rounds: the direction of a slip half round an obstacle is undetermined; it is set to 0
  * where no friction acts. */
 void cpsi_contact_clear_undetermined_slip(CpsiLine *line);

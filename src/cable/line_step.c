@@ -712,6 +712,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
         cpsi_contact_detect(line, true);
         cpsi_contact_update_geometry(line);
     }
+    if (looked) cpsi_contact_leave(line);
     if (looked) cpsi_contact_clear_undetermined_slip(line);
     cpsi_line_report_ends(line);
     cpsi_line_report_lengths(line);

@@ -27,11 +27,11 @@ typedef struct CpsiConicBlock {
 
 /* Numbers, and indices, of an element with this set. */
 static inline size_t cpsi_conic_stride(const CpsiConicSet *form) {
-    return (size_t)(6 * form->unknowns + 7 * form->rows + 2 * form->cones +
-                    form->spread * form->unknowns);
+    const size_t unknowns = (size_t)form->unknowns;
+    return (6 + (size_t)form->spread) * unknowns + 7 * (size_t)form->rows + 2 * (size_t)form->cones;
 }
 static inline size_t cpsi_conic_index_stride(const CpsiConicSet *form) {
-    return (size_t)(form->spread + form->unknowns);
+    return (size_t)form->spread + (size_t)form->unknowns;
 }
 
 /* Block b, read as elements of one form. */

@@ -386,7 +386,7 @@ static bool is_late(const CpsiBalance *balance, const CpsiFree *at) {
 /* The lines of a group whose motion is rough (time_step.h), whose nodes are to be taken by Euler
  * steps, as are points that go into what gives or out of it: those lines are again as they were,
  * and so is the next step of their nodes. Returns whether there are any. */
-static bool restart_rough(CpsiBalance *balance) {
+static bool restart_rough(CpsiBalance *balance, int group) {
     CpsEvolution *evolution = balance->evolution;
     bool any = false;
     for (int item = 0; item < balance->line_count; item++)
@@ -402,7 +402,7 @@ static bool restart_rough(CpsiBalance *balance) {
         cpsi_trial_restore_line(balance, i);
         cpsi_line_restart_rough(&evolution->line[i]);
     }
-    cpsi_point_motion_join(evolution);
+    cpsi_point_motion_join(evolution, group);
     cpsi_point_motion_predict(evolution);
     for (int item = 0; item < balance->line_count; item++) {
         const int i = balance->line[item];
@@ -442,7 +442,7 @@ static void find_motion(CpsiBalance *balance, int group) {
             cpsi_begin_again(balance);
             (void)search_with(balance, MOST_TRIALS, PATIENCE_AT_LAST);
         }
-        if (i > 0 || is_over(balance) || !restart_rough(balance)) break;
+        if (i > 0 || is_over(balance) || !restart_rough(balance, group)) break;
     }
     cpsi_report_found(balance);
 }
@@ -576,20 +576,22 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     }
     for (int i = 0; i < evolution->bodies.count; i++)
         any = any || evolution->bodies.body[i].kind == CPS_BODY_KIND_FREE;
+    if (any)
+        cpsi_points_group(points, &evolution->bodies, evolution->line_count);
+    else
+        for (int i = 0; i < points->count; i++) points->group[i] = CPSI_NO_POINT;
     if (evolution->interval > 0) {
-        cpsi_point_motion_join(evolution);
+        cpsi_point_motion_join(evolution, CPSI_ALL_GROUPS);
         cpsi_point_motion_predict(evolution);
         cpsi_body_motion_predict(evolution);
     }
     if (any) {
         balance->evolution = evolution;
         balance->task = step;
-        cpsi_points_group(points, &evolution->bodies, evolution->line_count);
         step_others(balance);
         for (int i = 0; i < points->count && !is_interrupted(evolution); i++)
             if (points->group[i] == i) find_places(balance, i);
     } else {
-        for (int i = 0; i < points->count; i++) points->group[i] = CPSI_NO_POINT;
         cpsi_workers_run(evolution->workers, step, evolution, evolution->line_count);
     }
     cpsi_report_held(evolution);

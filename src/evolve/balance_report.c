@@ -11,6 +11,7 @@
 #include "evolve/body_following.h"
 #include "evolve/body_motion.h"
 #include "evolve/body_stability.h"
+#include "evolve/moving_ground.h"
 #include "evolve/newton_step.h"
 #include "evolve/point_motion.h"
 #include "evolve/points.h"
@@ -45,7 +46,8 @@ static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
     if (touches) vec3_store(report->normal, at->normal);
     if (touches) vec3_store(report->slip, at->slip);
     report->has_place = cpsi_is_balanced(balance, vec3_norm(at->left)) &&
-                        cpsi_obeys_friction(balance, at) && cpsi_is_kept_in_set(balance, at);
+                        cpsi_obeys_friction(balance, at) && cpsi_is_kept_in_set(balance, at) &&
+                        !cpsi_ground_outruns(evolution, point, at->start);
     for (int a = 0; a < 3; a++) point->move[a] = report->position[a] - point->before[a];
     memcpy(point->position, report->position, sizeof point->position);
 }

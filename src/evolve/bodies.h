@@ -9,6 +9,7 @@
 #include "cable/node_field.h"
 #include "capstan/evolve.h"
 #include "evolve/joint_inertia.h"
+#include "evolve/radiation.h"
 
 typedef struct CpsiPose {
     Vec3 place; /* [m] relative to the origin of the evolution */
@@ -41,6 +42,7 @@ typedef struct CpsiBody {
     CpsiWrench waves;         /* of the waves in the step (excitation.h) */
     int wave_count;           /* of those that act on it */
     const double *excitation; /* (wave_count, 12) */
+    CpsiRadiation radiation;
     int member_count;
     const CpsiCylinder *member; /* (member_count) */
     CpsBody given;              /* with the name above */

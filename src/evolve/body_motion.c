@@ -77,6 +77,22 @@ static CpsiBodyPhase at_rest(const CpsiBody *body) {
                            .turn = body->pose.turn};
 }
 
+void cpsi_body_motion_layout(CpsEvolution *evolution, CpsiArena *arena, const CpsScene *scene) {
+    size_t numbers = 0;
+    for (int i = 0; i < scene->body_count; i++) numbers += cpsi_radiation_size(&scene->body[i]);
+    CPSI_PLACE(arena, evolution->radiation, numbers);
+}
+
+void cpsi_body_motion_fill(CpsEvolution *evolution) {
+    double *next = evolution->radiation;
+    for (int i = 0; i < evolution->bodies.count; i++) {
+        CpsiBody *body = &evolution->bodies.body[i];
+        body->radiation = cpsi_radiation_of(&body->given, next);
+        next += cpsi_radiation_size(&body->given);
+        body->given.radiation = NULL; /* the caller's */
+    }
+}
+
 void cpsi_body_motion_start(CpsEvolution *evolution) {
     for (int i = 0; i < evolution->bodies.count; i++) {
         CpsiBody *body = &evolution->bodies.body[i];
@@ -114,13 +130,30 @@ static Vec3 star(double back, Vec3 a, Vec3 b) {
     return back > 0 ? vec3_axpy(back, vec3_sub(a, b), a) : a;
 }
 
+/* Did a body that is free now move in a fixed direction as it was held? It is stopped in that
+ * direction by two Euler steps: the next formula of second order speaks of what has stopped. */
+static bool is_stopped(const CpsiBody *body) {
+    const CpsiBodyPhase *phase[] = {&body->inertia.now, &body->inertia.before};
+    const bool held[] = {body->inertia.held_now, body->inertia.held_before};
+    if (body->kind != CPS_BODY_KIND_FREE) return false;
+    for (int i = 0; i < 2; i++) {
+        double v[6];
+        if (!held[i]) continue;
+        vec3_store(v, phase[i]->velocity);
+        vec3_store(&v[3], phase[i]->rate);
+        for (int a = 0; a < 6; a++)
+            if (body->given.fixed[a] && v[a] != 0) return true;
+    }
+    return false;
+}
+
 void cpsi_body_motion_predict(CpsEvolution *evolution) {
     const CpsiFormula *formula = &evolution->formula;
     for (int i = 0; i < evolution->bodies.count; i++) {
         CpsiBodyInertia *inertia = &evolution->bodies.body[i].inertia;
         const CpsiBodyPhase *a = &inertia->now, *b = &inertia->before;
         const bool euler = evolution->time_scheme == CPS_TIME_SCHEME_EULER || evolution->restarts ||
-                           inertia->restarts;
+                           inertia->restarts || is_stopped(&evolution->bodies.body[i]);
         const double by = euler ? 0 : formula->back;
         const Vec3 back = euler
                               ? vec3(0, 0, 0)
@@ -138,6 +171,10 @@ void cpsi_body_motion_predict(CpsEvolution *evolution) {
                             .water = star(by, a->water, b->water),
                             .water_angular = star(by, a->water_angular, b->water_angular)};
         if (inertia->velocity_given) lead(&evolution->bodies.body[i]);
+        double u[6];
+        to_body(a, u);
+        cpsi_radiation_begin(&evolution->bodies.body[i].radiation, evolution->time, formula->length,
+                             u);
     }
 }
 
@@ -160,9 +197,16 @@ static CpsiBodyPhase phase_in(const CpsiBody *body, const CpsiPose *pose) {
 CpsiPose cpsi_body_motion_guess(const CpsiBody *body) {
     const CpsiBodyInertia *inertia = &body->inertia;
     const CpsiBodyPhase *now = &inertia->now, *rest = &inertia->rest;
-    return (CpsiPose){vec3_axpy(inertia->span, rest->velocity, rest->place),
-                      rotation_after(rotation_of(vec3_axpy(inertia->span, now->rate, rest->rate)),
-                                     now->turn)};
+    double to[3], turn[3], from[3];
+    vec3_store(to, vec3_axpy(inertia->span, rest->velocity, rest->place));
+    vec3_store(turn, vec3_axpy(inertia->span, now->rate, rest->rate));
+    vec3_store(from, now->place);
+    const bool is_free = body->kind == CPS_BODY_KIND_FREE;
+    for (int a = 0; a < 3; a++) {
+        if (is_free && body->given.fixed[a]) to[a] = from[a];
+        if (is_free && body->given.fixed[3 + a]) turn[a] = 0;
+    }
+    return (CpsiPose){vec3_load(to), rotation_after(rotation_of(vec3_load(turn)), now->turn)};
 }
 
 /* Of the momenta of a phase and of the scheme, minus their rates. */
@@ -206,12 +250,29 @@ static CpsiWrench sum_of(CpsiWrench a, CpsiWrench b) {
     return (CpsiWrench){vec3_add(a.force, b.force), vec3_add(a.moment, b.moment)};
 }
 
-/* Inertia, damping and the loads on members together. */
+/* Of the waves that the body has made. */
+static CpsiWrench radiation_of(const CpsiBody *body, const CpsiBodyPhase *at) {
+    double u[6], f[6] = {0};
+    to_body(at, u);
+    cpsi_radiation_add(&body->radiation, u, f);
+    return (CpsiWrench){rotation_apply(at->turn, vec3_load(f)),
+                        rotation_apply(at->turn, vec3_load(&f[3]))};
+}
+
+/* The water on members and that of radiation, in a step in time. */
+static CpsiMemberLoad moving_water(const CpsiBody *body, const CpsiPose *pose,
+                                   const CpsiBodyPhase *at) {
+    CpsiMemberLoad out = cpsi_members_load(body, pose, at);
+    if (body->radiation.rows > 0) out.drag = sum_of(out.drag, radiation_of(body, at));
+    return out;
+}
+
+/* Inertia, damping and this water together. */
 static CpsiWrench resistance_in(const CpsiBody *body, const CpsiPose *pose) {
     const CpsiBodyPhase at = phase_in(body, pose);
-    const CpsiMemberLoad members = cpsi_members_load(body, pose, &at);
+    const CpsiMemberLoad water = moving_water(body, pose, &at);
     return sum_of(sum_of(inertia_of(body, &at), damping_of(body, &at)),
-                  sum_of(members.drag, members.waves));
+                  sum_of(water.drag, water.waves));
 }
 
 void cpsi_body_motion_stiffness(const CpsiBody *body, const CpsiPose *pose, double stiffness[36]) {
@@ -221,11 +282,11 @@ void cpsi_body_motion_stiffness(const CpsiBody *body, const CpsiPose *pose, doub
 CpsiWrench cpsi_body_whole_load(const CpsEvolution *evolution, const CpsiBody *body,
                                 const CpsiPose *pose) {
     const CpsiWrench load = cpsi_body_load(body, pose, evolution->gravity);
-    if (body->member_count == 0) return load;
+    if (body->member_count == 0 && body->radiation.rows == 0) return load;
     if (!(evolution->interval > 0)) return sum_of(load, cpsi_members_load(body, pose, NULL).drag);
     const CpsiBodyPhase at = phase_in(body, pose);
-    const CpsiMemberLoad members = cpsi_members_load(body, pose, &at);
-    return sum_of(load, sum_of(members.drag, members.waves));
+    const CpsiMemberLoad water = moving_water(body, pose, &at);
+    return sum_of(load, sum_of(water.drag, water.waves));
 }
 
 void cpsi_body_whole_stiffness(const CpsEvolution *evolution, const CpsiBody *body,
@@ -299,8 +360,8 @@ static void advance(const CpsEvolution *evolution, CpsiBody *body) {
     inertia->error = error_of(evolution, body, &at);
     const Rotation step = rotation_after(body->pose.turn, rotation_inverse(inertia->now.turn));
     const double kinetic = kinetic_energy(&body->given, &at);
-    const CpsiMemberLoad members = cpsi_members_load(body, &body->pose, &at);
-    double motion[6], work[2] = {0, 0};
+    const CpsiMemberLoad water = moving_water(body, &body->pose, &at);
+    double motion[6], work[2] = {0, 0}, before[6], after[6];
     vec3_store(motion, vec3_sub(at.place, inertia->now.place));
     vec3_store(&motion[3], rotation_vector(step));
     for (int i = 0; i < 6; i++) {
@@ -309,13 +370,18 @@ static void advance(const CpsEvolution *evolution, CpsiBody *body) {
     }
     CpsMotionLedger *ledger = &inertia->ledger;
     *ledger = (CpsMotionLedger){.kinetic = kinetic - inertia->kinetic,
-                                .drag = -work_of(members.drag, motion),
-                                .waves = work_of(members.waves, motion)};
+                                .drag = -work_of(water.drag, motion),
+                                .waves = work_of(water.waves, motion)};
     ledger->scheme = work[0] - ledger->kinetic - beyond_all(evolution, body, step, motion);
     inertia->dissipated = work[1];
     ledger->turnover = fabs(ledger->kinetic) + fabs(ledger->scheme) + fabs(work[1]) +
                        fabs(ledger->drag) + fabs(ledger->waves);
     inertia->kinetic = kinetic;
+    to_body(&inertia->now, before);
+    to_body(&at, after);
+    cpsi_radiation_advance(&body->radiation, before, after);
+    inertia->held_before = inertia->held_now;
+    inertia->held_now = body->kind == CPS_BODY_KIND_HELD;
     inertia->before = inertia->now;
     inertia->now = at;
     inertia->restarts = false;
@@ -330,6 +396,7 @@ void cpsi_body_motion_stop(CpsEvolution *evolution) {
     for (int i = 0; i < evolution->bodies.count; i++) {
         CpsiBody *body = &evolution->bodies.body[i];
         const double lost = body->inertia.kinetic;
+        cpsi_radiation_forget(&body->radiation);
         body->inertia = (CpsiBodyInertia){.restarts = true,
                                           .now = at_rest(body),
                                           .ledger = {.kinetic = 0 - lost,

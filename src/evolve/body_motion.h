@@ -16,6 +16,9 @@
 
 #include "evolve/state.h"
 
+/* The memory of radiation of all bodies, which have been filled. */
+void cpsi_body_motion_layout(CpsEvolution *evolution, CpsiArena *arena, const CpsScene *scene);
+void cpsi_body_motion_fill(CpsEvolution *evolution);
 void cpsi_body_motion_start(CpsEvolution *evolution);
 /* The scheme of the step that begins. */
 void cpsi_body_motion_predict(CpsEvolution *evolution);

@@ -44,6 +44,8 @@ static bool is_above(const double m[36], double least) {
     return cpsi_cholesky(SIX, scaled, factor);
 }
 
+bool cpsi_takes_energy(const double m[36]) { return is_above(m, -ROUNDING); }
+
 /* Is the power u'E(|u| u) of quadratic damping never negative? With u_i = d_i a_i, and a b^2 <=
  * (a^3 + 2 b^3)/3, it is not if for some d > 0 every E_jj d_j^2 is at least the sum over i != j of
  * (2 |E_ij| d_i d_j + |E_ji| d_i^2)/3. The least such d above a first one is found from below;
@@ -144,7 +146,7 @@ CpsStatus cpsi_body_motion_check(const CpsBody *body, bool in_time, CpsError *er
                             "body '%s': added_mass is not a symmetric matrix of finite numbers "
                             "that has no negative energy",
                             body->name);
-    if (!are_usable(body->damping, 36) || !is_above(body->damping, -ROUNDING))
+    if (!are_usable(body->damping, 36) || !cpsi_takes_energy(body->damping))
         return CPSI_FAIL_AT("damping", err, CPS_ERR_ARGUMENT,
                             "body '%s': damping is not a matrix of finite numbers that takes "
                             "energy, or none, in every motion",

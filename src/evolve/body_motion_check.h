@@ -9,4 +9,8 @@
  * CPS_OK or CPS_ERR_ARGUMENT. */
 CpsStatus cpsi_body_motion_check(const CpsBody *body, bool in_time, CpsError *err);
 
+/* Does a damping (6, 6) of finite numbers take energy, or none, in every motion, but for rounding?
+ */
+bool cpsi_takes_energy(const double m[36]);
+
 #endif

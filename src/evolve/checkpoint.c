@@ -33,7 +33,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '7'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '8'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -318,6 +318,8 @@ _Static_assert(sizeof(CpsiBodyPhase) == 28 * sizeof(double) && sizeof(CpsiPose) 
                "a phase and a pose have numbers only");
 
 static void pass_body_inertia(Tape *tape, CpsiBodyInertia *inertia) {
+    pass_flag(tape, &inertia->held_now);
+    pass_flag(tape, &inertia->held_before);
     pass_flag(tape, &inertia->is_moving);
     pass_flag(tape, &inertia->restarts);
     pass_flag(tape, &inertia->velocity_given);
@@ -353,6 +355,8 @@ static void pass_body(Tape *tape, CpsiBody *body) {
     pass_flag(tape, &report->has_place);
     PASS(tape, report->trial_count);
     pass_body_inertia(tape, &body->inertia);
+    PASS(tape, body->radiation.kept);
+    pass(tape, body->radiation.past, 6 * (size_t)body->radiation.rows * sizeof(double));
 }
 
 size_t cpsi_line_state_size(const CpsiLine *line) {
@@ -672,6 +676,8 @@ static void hash_body(uint64_t *hash, const CpsiBody *body) {
     hash_numbers(hash, 36, given->quadratic_damping);
     hash_numbers(hash, 6, given->velocity);
     hash_numbers(hash, 12 * (size_t)body->wave_count, body->excitation);
+    hash_numbers(hash, 36 * (size_t)body->radiation.rows, body->radiation.kernel);
+    hash_numbers(hash, 1, &body->radiation.spacing);
     for (int i = 0; i < body->member_count; i++) /* numbers only */
         hash_bytes(hash, &body->member[i], offsetof(CpsiCylinder, strips));
     for (int i = 0; i < body->member_count; i++) hash_flow(hash, &body->member[i].flow);

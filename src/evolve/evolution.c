@@ -347,10 +347,6 @@ static CpsStatus check_time(const CpsEvolution *evolution, const CpsStage *move,
                              "%s: it has a duration, but beside free points or bodies line '%s' "
                              "cannot stretch",
                              what, evolution->line[i].name);
-    if (move->turn_count > 0 || move->shift_count > 0)
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "%s: it has a duration, but beside free points or bodies obstacles stay",
-                         what);
     return CPS_OK;
 }
 

@@ -104,6 +104,19 @@ static void layout_given(CpsEvolution *evolution, CpsiArena *arena, const CpsSce
     }
 }
 
+static void layout_bodies(CpsEvolution *evolution, CpsiArena *arena, const CpsScene *scene,
+                          bool real) {
+    cpsi_bodies_layout(&evolution->bodies, arena, scene);
+    cpsi_excitation_layout(evolution, arena, scene);
+    cpsi_body_motion_layout(evolution, arena, scene);
+    cpsi_members_layout(evolution, arena, scene);
+    CPSI_PLACE(arena, evolution->given_body, scene->body_count);
+    for (int i = 0; i < scene->body_count; i++) {
+        const char *name = copy_name(arena, scene->body[i].name);
+        if (real) evolution->bodies.body[i].name = name;
+    }
+}
+
 /* Everything an evolution holds, in one block (base/arena.h); called once to measure the size and
  * once to place the arrays. */
 static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiConicSet *largest) {
@@ -189,14 +202,7 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
         const char *name = copy_name(arena, scene->point[i].name);
         if (real) evolution->points.point[i].name = name;
     }
-    cpsi_bodies_layout(&evolution->bodies, arena, scene);
-    cpsi_excitation_layout(evolution, arena, scene);
-    cpsi_members_layout(evolution, arena, scene);
-    CPSI_PLACE(arena, evolution->given_body, scene->body_count);
-    for (int i = 0; i < scene->body_count; i++) {
-        const char *name = copy_name(arena, scene->body[i].name);
-        if (real) evolution->bodies.body[i].name = name;
-    }
+    layout_bodies(evolution, arena, scene, real);
     cpsi_view_layout(&evolution->fill, arena, size.nodes);
     if (real) cpsi_view_fill(&evolution->fill, size.nodes);
     evolution->workspace_count = workspace_count(scene);
@@ -362,13 +368,25 @@ static void fill_given(CpsEvolution *evolution, const CpsScene *scene) {
         for (int end = 0; end < 2; end++) evolution->given_line[i].constraint[end].set = NULL;
 }
 
+/* Ends at points are where those are: of one on a body the place in the scene, less the origin, is
+ * rounded more than that in the local scene. */
+static void bring_ends_to_points(CpsEvolution *evolution) {
+    const CpsiPoints *points = &evolution->points;
+    for (int k = 0; k < 2 * evolution->line_count; k++)
+        if (points->tie[k] != CPSI_NO_POINT)
+            memcpy(evolution->line[k / 2].end[k % 2].value, points->point[points->tie[k]].position,
+                   sizeof points->point->position);
+}
+
 /* The points, and the memory to find those that are free: with friction that has directions none
  * may be. */
 static CpsStatus fill_points(CpsEvolution *evolution, const CpsScene *scene, const CpsScene *local,
                              CpsError *err) {
     cpsi_points_fill(&evolution->points, scene, local);
+    bring_ends_to_points(evolution);
     cpsi_bodies_fill(&evolution->bodies, scene, local);
     cpsi_excitation_fill(evolution, local);
+    cpsi_body_motion_fill(evolution);
     cpsi_members_fill(evolution, local);
     for (int i = 0; i < scene->body_count; i++)
         evolution->given_body[i] = evolution->bodies.body[i].given;

@@ -435,7 +435,7 @@ CpsiMovedStiffness cpsi_moved_stiffness(const CpsEvolution *evolution, const Cps
         if (found.outcome != CPS_STIFFNESS_OUTCOME_FOUND)
             return (CpsiMovedStiffness){.outcome = found.outcome};
         out.has_smooth = out.has_smooth && found.has_smooth;
-        same = same && memcmp(found.matrix, found.smooth, sizeof found.matrix) == 0;
+        for (int k = 0; k < 36; k++) same = same && found.matrix[k] == found.smooth[k];
         add_own(&f, i, found.matrix, out.matrix);
         add_own(&f, i, found.smooth, out.smooth);
         add_turning(&f, i, out.matrix);

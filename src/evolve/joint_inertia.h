@@ -36,8 +36,9 @@ typedef struct CpsiBodyPhase {
 
 typedef struct CpsiBodyInertia {
     bool is_moving, restarts;
-    double span;               /* [s] k */
-    CpsiBodyPhase now, before; /* of the steps n and n - 1 */
+    bool held_now, held_before; /* in the steps n and n - 1 */
+    double span;                /* [s] k */
+    CpsiBodyPhase now, before;  /* of the steps n and n - 1 */
     /* x*, t*, v* and momenta of the scheme; the turn is Q_n, the rate's place is t* */
     CpsiBodyPhase rest;
     bool velocity_given;

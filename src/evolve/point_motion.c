@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "evolve/bodies.h"
+#include "evolve/moving_ground.h"
 #include "evolve/pace.h"
 #include "evolve/points.h"
 #include "evolve/soft_point.h"
@@ -61,14 +62,53 @@ void cpsi_point_motion_start(CpsEvolution *evolution) {
     }
 }
 
-void cpsi_point_motion_join(CpsEvolution *evolution) {
+/* Does a node of a line that moves in time take an Euler step next? */
+static bool any_restarts(const CpsiLine *line) {
+    if (!line->has_inertia) return false;
+    for (int j = 0; j < line->n; j++)
+        if (line->inertia.restarts[j]) return true;
+    return false;
+}
+
+/* Does a line belong to a group, or to any? */
+static bool is_of(const CpsEvolution *evolution, int line, int group) {
+    return group == CPSI_ALL_GROUPS || cpsi_group_of_line(&evolution->points, line) == group;
+}
+
+/* Where ground moves, its way in k is one for all nodes of a line (time_step.c), and so for all
+ * lines and points of a group. */
+static void join_groups(CpsEvolution *evolution, int only) {
+    CpsiPoint *point = evolution->points.point;
+    const int *group = evolution->points.group;
+    for (int i = 0; i < evolution->points.count; i++)
+        if (group[i] != CPSI_NO_POINT && point[i].inertia.restarts)
+            point[group[i]].inertia.restarts = true;
+    for (int i = 0; i < evolution->line_count; i++) {
+        const int of = cpsi_group_of_line(&evolution->points, i);
+        if (of != CPSI_NO_POINT && is_of(evolution, i, only) && any_restarts(&evolution->line[i]))
+            point[of].inertia.restarts = true;
+    }
+    LineEnd end;
+    for (int k = 0; k < 2 * evolution->line_count; k++) {
+        const int at = evolution->points.tie[k];
+        if (!is_of(evolution, k / 2, only) || !take_end(evolution, k, &end) ||
+            group[at] == CPSI_NO_POINT)
+            continue;
+        end.point->inertia.restarts = end.inertia->restarts[end.node] =
+            point[group[at]].inertia.restarts;
+    }
+}
+
+void cpsi_point_motion_join(CpsEvolution *evolution, int group) {
     LineEnd end;
     for (int k = 0; k < 2 * evolution->line_count; k++)
-        if (take_end(evolution, k, &end) && end.inertia->restarts[end.node])
+        if (is_of(evolution, k / 2, group) && take_end(evolution, k, &end) &&
+            end.inertia->restarts[end.node])
             end.point->inertia.restarts = true;
     for (int k = 0; k < 2 * evolution->line_count; k++)
-        if (take_end(evolution, k, &end))
+        if (is_of(evolution, k / 2, group) && take_end(evolution, k, &end))
             end.inertia->restarts[end.node] = end.point->inertia.restarts;
+    if (cpsi_ground_moves(evolution)) join_groups(evolution, group);
 }
 
 void cpsi_point_motion_predict(CpsEvolution *evolution) {
@@ -114,14 +154,15 @@ static bool stops(const CpsEvolution *evolution, const CpsiPoint *point) {
     return bears_now(point) && !(evolution->obstacle[point->report.obstacle].stiffness > 0);
 }
 
-/* Take the part along the unit vector n out of v. */
-static void stop_along(double v[3], Vec3 n) {
-    vec3_store(v, vec3_axpy(-vec3_dot(vec3_load(v), n), n, vec3_load(v)));
+/* Give v the part `rate` along the unit vector n. */
+static void stop_along(double v[3], Vec3 n, double rate) {
+    vec3_store(v, vec3_axpy(rate - vec3_dot(vec3_load(v), n), n, vec3_load(v)));
 }
 
-/* The energy of the part of v along n, where it goes against n. */
-static double energy_of_landing(double mass, const double v[3], Vec3 n) {
-    const double rate = fmin(0, vec3_dot(vec3_load(v), n));
+/* The energy of the part of v along n, beside ground of the velocity `ground`, where it goes
+ * against n. */
+static double energy_of_landing(double mass, const double v[3], Vec3 n, double ground) {
+    const double rate = fmin(0, vec3_dot(vec3_load(v), n) - ground);
     return 0.5 * mass * rate * rate;
 }
 
@@ -131,6 +172,7 @@ static void close_ledger(const CpsEvolution *evolution, int index, const double 
     CpsiPointInertia *inertia = &point->inertia;
     CpsPointReport *report = &point->report;
     const Vec3 way = vec3_sub(vec3_load(point->position), vec3_load(point->before)),
+               slip = vec3_sub(way, cpsi_ground_way(evolution, point)),
                n = vec3_load(report->normal);
     const double gained = kinetic_energy(inertia->mass, velocity) - inertia->kinetic;
     CpsMotionLedger *ledger = &inertia->ledger;
@@ -141,10 +183,11 @@ static void close_ledger(const CpsEvolution *evolution, int index, const double 
     ledger->turnover = fabs(stored);
     report->dissipated = 0;
     if (bears_now(point)) {
-        report->dissipated = -vec3_dot(vec3_load(report->friction), way);
-        ledger->scheme -= report->reaction * vec3_dot(n, way);
+        report->dissipated = -vec3_dot(vec3_load(report->friction), slip);
+        ledger->scheme -= report->reaction * vec3_dot(n, slip);
         if (inertia->landed && stops(evolution, point))
-            ledger->impact = energy_of_landing(inertia->mass, inertia->velocity, n);
+            ledger->impact = energy_of_landing(inertia->mass, inertia->velocity, n,
+                                               cpsi_ground_rate(evolution, point));
         ledger->scheme -= ledger->impact;
     }
 }
@@ -165,7 +208,8 @@ static void follow(const CpsEvolution *evolution, const LineEnd *end) {
     const Vec3 n = vec3_load(end->point->report.normal);
     double *v = &of->velocity[3 * end->node], *v0 = &of->before_velocity[3 * end->node];
     if (stops(evolution, end->point)) {
-        const double impact = inertia->landed ? energy_of_landing(mass, v0, n) : 0,
+        const double rate = cpsi_ground_rate(evolution, end->point),
+                     impact = inertia->landed ? energy_of_landing(mass, v0, n, rate) : 0,
                      lost = kinetic_energy(mass, v) - kinetic_energy(mass, inertia->velocity);
         of->kinetic -= lost;
         of->ledger.kinetic -= lost;
@@ -206,16 +250,19 @@ void cpsi_point_motion_advance(CpsEvolution *evolution) {
         memcpy(inertia->before, point->before, sizeof inertia->before);
         memcpy(inertia->before_velocity, inertia->velocity, sizeof inertia->before_velocity);
         memcpy(inertia->velocity, velocity, sizeof velocity);
+        const double had = inertia->kinetic;
         inertia->kinetic = kinetic_energy(inertia->mass, velocity);
         if (stopped) {
             const Vec3 way = vec3_sub(vec3_load(point->position), vec3_load(point->before));
-            vec3_store(inertia->before, vec3_axpy(vec3_dot(way, n), n, vec3_load(point->before)));
-            stop_along(inertia->velocity, n);
-            stop_along(inertia->before_velocity, n);
+            const double rate = cpsi_ground_rate(evolution, point),
+                         off = vec3_dot(way, n) - evolution->formula.length * rate;
+            vec3_store(inertia->before, vec3_axpy(off, n, vec3_load(point->before)));
+            stop_along(inertia->velocity, n, rate);
+            stop_along(inertia->before_velocity, n, rate);
             const double now = kinetic_energy(inertia->mass, inertia->velocity),
                          lost = inertia->kinetic - now;
             inertia->kinetic = now;
-            inertia->ledger.kinetic -= lost;
+            inertia->ledger.kinetic = now - had; /* which may be far less than what is lost */
             inertia->ledger.scheme += lost;
         }
         add_turnover(report, &inertia->ledger);

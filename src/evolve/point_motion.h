@@ -12,8 +12,11 @@
 void cpsi_point_motion_start(CpsEvolution *evolution);
 
 /* Give each point and the ends of lines at it one next step: an Euler step where that of one of
- * them is. */
-void cpsi_point_motion_join(CpsEvolution *evolution);
+ * them is; where an obstacle moves, of all lines and points of a group (points.h), which are found.
+ * Of one group, whose step is taken again, those of other groups stay as they are: they may have
+ * been advanced. */
+enum { CPSI_ALL_GROUPS = -2 };
+void cpsi_point_motion_join(CpsEvolution *evolution, int group);
 /* x*, v* and k of the step that begins. */
 void cpsi_point_motion_predict(CpsEvolution *evolution);
 

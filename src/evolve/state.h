@@ -70,6 +70,7 @@ struct CpsEvolution {
     CpsiWaves waves;
     CpsiGivenWater water; /* without a function: none */
     double *excitation;   /* of all bodies (excitation.h) */
+    double *radiation;    /* of all bodies (radiation.h) */
     CpsiCylinder *member; /* of all bodies (members.h) */
     CpsiPoints points;
     CpsiBodies bodies;

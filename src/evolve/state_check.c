@@ -231,7 +231,8 @@ static bool is_body(const CpsiBody *body) {
                           body->load_from.moment};
     bool sound = within(body->kind, CPS_BODY_KIND_HELD, CPS_BODY_KIND_FREE) &&
                  body->report.trial_count >= 0 && all_finite(body->report.support, 6) &&
-                 all_finite(pose, sizeof pose / sizeof *pose) && is_body_motion(&body->inertia);
+                 all_finite(pose, sizeof pose / sizeof *pose) && is_body_motion(&body->inertia) &&
+                 all_finite(body->radiation.past, 6 * (size_t)body->radiation.rows);
     for (int i = 0; i < 4; i++)
         sound = sound && isfinite(loads[i].x) && isfinite(loads[i].y) && isfinite(loads[i].z);
     return sound;

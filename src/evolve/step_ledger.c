@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "evolve/bodies.h"
+#include "evolve/moving_ground.h"
 #include "evolve/points.h"
 #include "evolve/soft_point.h"
 
@@ -42,17 +43,14 @@ void cpsi_coupling_ledger(CpsEvolution *evolution) {
 }
 
 /* [J] The work that an obstacle which turns or moves does on a point that touches it. */
-static double work_on_point(const CpsEvolution *evolution, const CpsPointReport *point) {
-    const int k = point->obstacle;
-    if (k < 0 || (evolution->angle[k] == 0 && cpsi_shift_is_none(&evolution->shift[k]))) return 0;
-    const Vec3 x = vec3_load(point->position),
-               before = cpsi_obstacle_turn(&evolution->obstacle[k], x, -evolution->angle[k]),
-               moved = vec3_add(vec3_sub(x, before), cpsi_shift_to(&evolution->shift[k], before));
-    return vec3_dot(moved, vec3_axpy(point->reaction, vec3_load(point->normal),
-                                     vec3_load(point->friction)));
+static double work_on_point(const CpsEvolution *evolution, const CpsiPoint *point) {
+    const CpsPointReport *report = &point->report;
+    return vec3_dot(cpsi_ground_way(evolution, point),
+                    vec3_axpy(report->reaction, vec3_load(report->normal),
+                              vec3_load(report->friction)));
 }
 
-/* [J] of load and weight on a point, or of what holds it. */
+/* [J] of load and weight on a point, or of what holds it beside an obstacle that moves. */
 static double work_outside(const CpsEvolution *evolution, int index) {
     const CpsiPoint *point = &evolution->points.point[index];
     const CpsPointReport *report = &point->report;
@@ -60,7 +58,8 @@ static double work_outside(const CpsEvolution *evolution, int index) {
     if (point->kind == CPS_POINT_KIND_FREE) force = vec3_load(report->load);
     if (point->kind == CPS_POINT_KIND_HELD)
         force = vec3_axpy(report->reaction, vec3_load(report->normal), vec3_load(report->support));
-    return vec3_dot(force, way_of_point(evolution, index));
+    const double work = vec3_dot(force, way_of_point(evolution, index));
+    return point->kind == CPS_POINT_KIND_HELD ? work - work_on_point(evolution, point) : work;
 }
 
 /* [J] of load, weight and water on a body, and of what holds it. */
@@ -88,7 +87,7 @@ static double add_points(const CpsEvolution *evolution, CpsStepReport *step) {
         const CpsPointReport *report = &evolution->points.point[i].report;
         step->dissipated += report->dissipated;
         step->ledger.dissipated += report->dissipated;
-        pushed += work_on_point(evolution, report);
+        pushed += work_on_point(evolution, &evolution->points.point[i]);
     }
     step->ledger.obstacles += pushed;
     return pushed;

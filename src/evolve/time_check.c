@@ -8,6 +8,7 @@
 
 #include "base/status.h"
 #include "evolve/body_motion_check.h"
+#include "evolve/radiation.h"
 #include "evolve/ranges.h"
 
 bool cpsi_is_in_time(const CpsScene *scene) {
@@ -172,17 +173,6 @@ static CpsStatus check_beside_free(const CpsScene *scene, CpsError *err) {
                              line->name),
                 "lines.%s", line->name);
     }
-    for (int k = 0; k < scene->stage_count; k++) {
-        const CpsStage *stage = &scene->stage[k];
-        if (stage->duration > 0 && (stage->turn_count > 0 || stage->shift_count > 0))
-            return cpsi_fail_inside(
-                err,
-                CPSI_FAIL_AT("duration", err, CPS_ERR_ARGUMENT,
-                             "stage %d: it has a duration, and beside free points or bodies "
-                             "obstacles neither turn nor move in time",
-                             k + 1),
-                "history[%d]", k + 1);
-    }
     return CPS_OK;
 }
 
@@ -195,6 +185,7 @@ static CpsStatus check_points(const CpsScene *scene, bool in_time, CpsError *err
     for (int i = 0; i < scene->body_count; i++) {
         const CpsBody *body = &scene->body[i];
         CpsStatus status = cpsi_body_motion_check(body, in_time, err);
+        if (status == CPS_OK) status = cpsi_radiation_check(body, err);
         if (status == CPS_OK && in_time && moves(body->velocity, CPS_BODY_DIRECTIONS))
             status = check_first_step(scene, "body", body->name, err);
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "bodies.%s", body->name);

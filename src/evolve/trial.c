@@ -15,6 +15,7 @@
 #include "evolve/body_motion.h"
 #include "evolve/checkpoint.h"
 #include "evolve/joint_system.h"
+#include "evolve/moving_ground.h"
 #include "evolve/point_motion.h"
 #include "evolve/points.h"
 #include "evolve/soft_point.h"
@@ -195,12 +196,12 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
     at->friction = evolution->has_static && evolution->done == 0
                        ? 0
                        : on->friction[0] * cpsi_obstacle_friction_factor(on, at->place);
-    const bool in_time = evolution->interval > 0;
-    const Vec3 before =
-        cpsi_obstacle_carry(on, vec3_load(in_time ? point->inertia.reference : point->before),
-                            &evolution->shift[at->obstacle], evolution->angle[at->obstacle]);
+    const Vec3 before = cpsi_ground_carry(evolution, point, at->obstacle);
     at->slip = cpsi_obstacle_slip(on, before, at->place);
     at->start = vec3_axpy(-cpsi_obstacle_gap(on, before), cpsi_obstacle_normal(on, before), before);
+    /* on what is round the way to where it was is rounding, which friction counts as sliding until
+     * the stiffness is known */
+    if (cpsi_vec3_is_zero(vec3_sub(at->place, at->start))) at->slip = vec3(0, 0, 0);
     at->gives = on->stiffness > 0;
     if (!at->gives) return;
     const CpsiSoft soft = cpsi_soft_point_spring(evolution, at->point, at->obstacle, before);

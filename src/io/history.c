@@ -53,43 +53,15 @@ bool cpsi_has_duration(const CpsScene *scene) {
     return any;
 }
 
-static void add_motion(const CpsMotionLedger *ledger, double kinetic, CpsiMotionRow *sum) {
-    sum->kinetic += kinetic;
-    sum->ledger.kinetic += ledger->kinetic;
-    sum->ledger.impact += ledger->impact;
-    sum->ledger.scheme += ledger->scheme;
-    sum->ledger.settling += ledger->settling;
-    sum->ledger.damping += ledger->damping;
-    sum->ledger.drag += ledger->drag;
-    sum->ledger.added += ledger->added;
-    sum->ledger.waves += ledger->waves;
-    sum->ledger.turnover += ledger->turnover;
-}
-
 CpsiMotionRow cpsi_motion_row(const CpsEvolution *evolution) {
-    CpsiMotionRow sum = {.time = cps_evolution_time(evolution),
-                         .pace = cps_evolution_pace(evolution)};
-    sum.rejected = sum.pace.rejected;
-    for (int i = 0; i < cps_evolution_line_count(evolution); ++i) {
-        const CpsLineMotion motion = cps_evolution_line_motion(evolution, i);
-        add_motion(&motion.ledger, motion.kinetic, &sum);
-        if (!motion.is_moving) continue;
-        sum.landed += motion.landed;
-        sum.changed += motion.changed;
-        sum.snatched += motion.snatched;
-        if (!(motion.position_bound <= sum.position_bound))
-            sum.position_bound = motion.position_bound;
-    }
-    for (int i = 0; i < cps_evolution_point_count(evolution); ++i) {
-        const CpsPointMotion motion = cps_evolution_point_motion(evolution, i);
-        add_motion(&motion.ledger, motion.kinetic, &sum);
-        sum.landed += motion.landed;
-    }
-    for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {
-        const CpsBodyMotion motion = cps_evolution_body_motion(evolution, i);
-        add_motion(&motion.ledger, motion.kinetic, &sum);
-    }
-    return sum;
+    CpsiMotionRow row = {.time = cps_evolution_time(evolution),
+                         .pace = cps_evolution_pace(evolution),
+                         .of = cps_evolution_motion(evolution)};
+    row.rejected = row.pace.rejected;
+    row.landed = row.of.landed;
+    row.changed = row.of.changed;
+    row.snatched = row.of.snatched;
+    return row;
 }
 
 bool cpsi_has_winch(const CpsLine *line) {

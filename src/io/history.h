@@ -42,14 +42,18 @@ typedef struct CpsiObstacleRow {
     bool moved;               /* in the step */
 } CpsiObstacleRow;
 
+/* A point after a step. */
+typedef struct CpsiPointRow {
+    CpsPointReport report;
+    CpsPointMotion motion;
+} CpsiPointRow;
+
 /* The motion in time of all lines, points and bodies together; 0 in quasi-static steps. */
 typedef struct CpsiMotionRow {
-    double time, kinetic; /* [s] since the history began, [J] */
+    double time; /* [s] since the history began */
     CpsPace pace;
-    double rejected; /* as there */
-    CpsMotionLedger ledger;
-    double position_bound;            /* [m] the largest of the lines */
-    double landed, changed, snatched; /* sums (CpsLineMotion) */
+    CpsStepMotion of;
+    double rejected, landed, changed, snatched; /* as there */
 } CpsiMotionRow;
 
 typedef struct CpsiRow {
@@ -59,7 +63,7 @@ typedef struct CpsiRow {
     double open_reaction; /* [N] largest over the lines */
     CpsiMotionRow motion;
     CpsiLineRow *line;
-    CpsPointReport *point;              /* (points) NULL without points */
+    CpsiPointRow *point;                /* (points) NULL without points */
     CpsiBodyRow *body;                  /* (bodies) NULL without bodies */
     CpsiObstacleRow *place;             /* (obstacles) NULL without obstacles */
     CpsStiffness (*stiffness)[2][2];    /* (lines) of ends A and B, by kind; NULL: not asked for */

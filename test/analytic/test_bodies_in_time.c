@@ -712,6 +712,55 @@ static void test_absent_owners(void **state) {
             }
 }
 
+/* A body is led along x and y, turned about z, and let go, free to move along y and z alone: it
+ * stops along x and about z, and goes on along y; its centre of gravity is where that asks no
+ * moment. */
+static void test_let_go_in_fixed_directions(void **state) {
+    (void)state;
+    static Rig rig;
+    enum { STEPS = 20 };
+    CpsStage stage[2] = {cps_stage_default(), cps_stage_default()};
+    CpsBodyChange change[2] = {{.kind = CPS_BODY_KIND_HELD,
+                                .position = {1, 2, 0},
+                                .rotation = {cos(0.2), 0, 0, sin(0.2)}},
+                               {.kind = CPS_BODY_KIND_FREE}};
+    begin(&rig);
+    rig.scene.gravity[2] = 0;
+    rig.scene.line_count = rig.scene.body_count = 1;
+    rig.scene.point_count = 2;
+    rig.body.mass = 3;
+    for (int i = 0; i < 3; i++) rig.body.inertia[i] = 2;
+    rig.body.fixed[0] = rig.body.fixed[3] = rig.body.fixed[4] = rig.body.fixed[5] = true;
+    rig.point[1].kind = CPS_POINT_KIND_ON_BODY;
+    place(&rig.point[0], 0, 0, 50);
+    tie(&rig, 0, 0, 1, 49, 2, 1e-9, rig.point[0].position, rig.point[1].position);
+    for (int k = 0; k < 2; k++) {
+        stage[k].name = k ? "let go" : "led";
+        stage[k].duration = 1;
+        stage[k].step_count = STEPS;
+        stage[k].body_change = &change[k];
+        stage[k].body_change_count = 1;
+    }
+    rig.scene.stage = stage;
+    rig.scene.stage_count = 2;
+    CpsEvolution *evolution;
+    CpsError err;
+    if (cps_evolution_create(&rig.scene, &evolution, &err)) fail_msg("%s", err.message);
+    for (int i = 0; i < 2 * STEPS; i++) {
+        step(evolution);
+        if (i < STEPS) continue;
+        const CpsBodyReport report = cps_evolution_body_report(evolution, 0);
+        const CpsBodyMotion motion = cps_evolution_body_motion(evolution, 0);
+        CHECK_NEAR(report.position[0], 1, 0);
+        CHECK_NEAR(report.position[1], 2 + 2.0 * (i + 1 - STEPS) / STEPS, 1e-9);
+        CHECK_NEAR(report.rotation[3], sin(0.2), 1e-15);
+        CHECK_NEAR(motion.velocity[0], 0, 0);
+        CHECK_NEAR(motion.velocity[1], 2, 1e-9);
+        if (i > STEPS) CHECK_NEAR(report.support[0], 0, 1e-9); /* N */
+    }
+    cps_evolution_destroy(evolution);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_mass_on_a_line, begin_ledgers, close_ledgers),
@@ -726,6 +775,8 @@ int main(void) {
         cmocka_unit_test(test_bound_of_a_coupling),
         cmocka_unit_test(test_accepted_couplings),
         cmocka_unit_test_setup_teardown(test_step_lengths, begin_ledgers, close_ledgers),
+        cmocka_unit_test_setup_teardown(test_let_go_in_fixed_directions, begin_ledgers,
+                                        close_ledgers),
         cmocka_unit_test(test_absent_owners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

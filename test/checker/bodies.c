@@ -264,8 +264,10 @@ void body_place(const Vector position, const double rotation[FOUR], const Vector
     for (int i = 0; i < 3; i++) place[i] += position[i];
 }
 
-/* The rotation vector of the rotation that leads from quaternion q0 to exp(t e_axis) q. */
-static void turned_by(const double q0[FOUR], const double q[FOUR], int axis, Real t, Real v[3]) {
+/* The rotation vector of the rotation that leads from quaternion q0 to exp(t e_axis) q: by at most
+ * half a turn, or with `near`, that of another pose, beyond it on the side of that one. */
+static void turned_by(const double q0[FOUR], const double q[FOUR], int axis, Real t,
+                      const Real *near, Real v[3]) {
     Real p[FOUR] = {cosl(t / 2), 0, 0, 0}, r[FOUR], w[FOUR];
     p[1 + axis] = sinl(t / 2);
     /* r = p q, w = r q0* */
@@ -277,7 +279,9 @@ static void turned_by(const double q0[FOUR], const double q[FOUR], int axis, Rea
     w[1] = -r[0] * q0[1] + r[1] * q0[0] - r[2] * q0[3] + r[3] * q0[2];
     w[2] = -r[0] * q0[2] + r[2] * q0[0] - r[3] * q0[1] + r[1] * q0[3];
     w[3] = -r[0] * q0[3] + r[3] * q0[0] - r[1] * q0[2] + r[2] * q0[1];
-    const Real sign = w[0] < 0 ? -1 : 1, sine = sqrtl(w[1] * w[1] + w[2] * w[2] + w[3] * w[3]),
+    const bool other = near && w[1] * near[0] + w[2] * near[1] + w[3] * near[2] < 0;
+    const Real sign = (near ? other : w[0] < 0) ? -1 : 1,
+               sine = sqrtl(w[1] * w[1] + w[2] * w[2] + w[3] * w[3]),
                angle = 2 * atan2l(sine, sign * w[0]);
     for (int i = 0; i < 3; i++)
         v[i] = sine > 0 ? sign * angle * w[1 + i] / sine : 2 * sign * w[1 + i] / fabsl(w[0]);
@@ -287,10 +291,10 @@ static void turned_by(const double q0[FOUR], const double q[FOUR], int axis, Rea
 
 /* Twice the energy of the water in the pose that has turned on by t about an axis. */
 static Real twice_energy(const BodyData *data, const Vector position, const double rotation[FOUR],
-                         int axis, Real t) {
+                         int axis, Real t, const Real *near) {
     Real q[SIX], sum = 0;
     for (int i = 0; i < 3; i++) q[i] = (Real)position[i] - data->start_position[i];
-    turned_by(data->start_rotation, rotation, axis, t, &q[3]);
+    turned_by(data->start_rotation, rotation, axis, t, near, &q[3]);
     for (int i = 0; i < SIX; i++)
         for (int k = 0; k < SIX; k++) sum += q[i] * data->hydrostatics[SIX * i + k] * q[k];
     return sum;
@@ -320,13 +324,16 @@ void body_load(const BodyData *data, const Vector position, const double rotatio
     add_force(load, force, arm);
     Real q[SIX];
     for (int i = 0; i < 3; i++) q[i] = (Real)position[i] - data->start_position[i];
-    turned_by(data->start_rotation, rotation, 0, 0, &q[3]);
+    turned_by(data->start_rotation, rotation, 0, 0, NULL, &q[3]);
+    /* half a turn from the start the vector jumps; derivatives are those on the side of the pose */
+    const Real *near = q[3] * q[3] + q[4] * q[4] + q[5] * q[5] > 1 ? &q[3] : NULL;
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < SIX; k++) load[i] -= (Real)data->hydrostatics[SIX * i + k] * q[k];
     for (int i = 0; i < 3; i++) {
         Real e[4];
         for (int k = 0; k < 4; k++)
-            e[k] = twice_energy(data, position, rotation, i, TURN * (Real[]){-2, -1, 1, 2}[k]);
+            e[k] =
+                twice_energy(data, position, rotation, i, TURN * (Real[]){-2, -1, 1, 2}[k], near);
         load[3 + i] -= (8 * (e[2] - e[1]) - (e[3] - e[0])) / (24 * TURN);
     }
 }

@@ -19,6 +19,7 @@
 #include "excitation.h"
 #include "members.h"
 #include "oscillation.h"
+#include "radiation.h"
 #include "ranges.h"
 #include "turning.h"
 
@@ -48,8 +49,9 @@ typedef struct Compare {
     const Source *source;
     const CpsScene *scene;
     Bodies bodies;
-    Record *line;       /* (lines) of the step */
-    BodyMotion *motion; /* (bodies) of the step */
+    Record *line;        /* (lines) of the step */
+    BodyMotion *motion;  /* (bodies) of the step */
+    RadiationPast *past; /* (bodies) before the step */
     GivenFinding *find;
     void *user;
     bool found;
@@ -234,7 +236,40 @@ static bool has_duration(const Compare *c, size_t step) {
     return time_after(c, step) > (step > 0 ? time_after(c, step - 1) : 0);
 }
 
-/* The water on the members of a body after a step. */
+/* The velocities after a step, in the axes of the body. */
+static RadiationMoment moment_of(const Compare *c, size_t k, size_t step, const BodyState *at) {
+    return radiation_moment(time_after(c, step), at->rotation, c->motion[k].velocity,
+                            c->motion[k].rate);
+}
+
+/* Add the force of radiation, turned to the axes of the scene. */
+static void add_radiation(const Compare *c, size_t k, size_t step, const BodyState *at,
+                          MemberLoad *out) {
+    Real own[SIX], m[3][3];
+    if (c->scene->body[k].radiation_count == 0 || !has_duration(c, step)) return;
+    radiation_force(&c->scene->body[k], &c->past[k], moment_of(c, k, step, at), own, out->sizes);
+    body_matrix(at->rotation, m);
+    for (int i = 0; i < SIX; i++)
+        for (int j = 0; j < 3; j++) out->drag[i] += m[i % 3][j] * own[i - i % 3 + j];
+}
+
+/* The step belongs to the past of the next one. Before the first one a body has the velocities of
+ * the scene. */
+static int note_past(const Compare *c, size_t k, size_t step, const BodyState *at) {
+    if (c->scene->body[k].radiation_count == 0) return 0;
+    if (!has_duration(c, step)) return radiation_rest(&c->past[k], time_after(c, step));
+    return radiation_note(&c->past[k], moment_of(c, k, step, at));
+}
+
+static int begin_past(const Compare *c, size_t k) {
+    const CpsBody *body = &c->scene->body[k];
+    double start[FOUR];
+    unit(body->rotation, start);
+    return radiation_note(&c->past[k],
+                          radiation_moment(0, start, body->velocity, &body->velocity[3]));
+}
+
+/* The water on the members of a body after a step, and that of radiation. */
 static MemberLoad on_members(const Compare *c, size_t k, size_t step, const BodyState *at) {
     const BodyMotion *motion = &c->motion[k];
     MemberBody of = {.rotation = at->rotation,
@@ -242,7 +277,9 @@ static MemberLoad on_members(const Compare *c, size_t k, size_t step, const Body
                      .rate = motion->rate,
                      .time = has_duration(c, step) ? time_after(c, step) : -1};
     for (int i = 0; i < 3; i++) of.position[i] = (Real)at->position[i] + c->source->origin[i];
-    return members_load(c->scene, (int)k, &of);
+    MemberLoad out = members_load(c->scene, (int)k, &of);
+    add_radiation(c, k, step, at, &out);
+    return out;
 }
 
 /* What the ledger says of them. */
@@ -463,7 +500,9 @@ static int compare_steps(Compare *c, GivenStep (*step_of)(const void *user, size
     BodyState *now = calloc(n, sizeof *now), *before = calloc(n, sizeof *before);
     c->line = calloc(c->source->lines, sizeof *c->line);
     c->motion = calloc(n, sizeof *c->motion);
-    int bad = imposed && now && before && c->line && c->motion ? 0 : -1;
+    c->past = calloc(n, sizeof *c->past);
+    int bad = imposed && now && before && c->line && c->motion && c->past ? 0 : -1;
+    for (size_t k = 0; k < n && !bad; k++) bad = begin_past(c, k);
     for (size_t i = 0; i < c->source->lines && !bad; i++)
         bad = record_create(c->source, c->source->line_name[i], &c->line[i], log);
     if (!bad)
@@ -475,12 +514,16 @@ static int compare_steps(Compare *c, GivenStep (*step_of)(const void *user, size
         for (size_t i = 0; i < c->source->lines && !bad; i++)
             bad = record_read(c->source, c->source->line_name[i], step, &c->line[i], log);
         if (!bad) compare_step(c, &given, step, imposed, before, now);
+        for (size_t k = 0; k < n && !bad; k++) bad = note_past(c, k, step, &now[k]);
         BodyState *swap = before;
         before = now;
         now = swap;
     }
     for (size_t i = 0; i < c->source->lines && c->line; i++) record_destroy(&c->line[i]);
     free(c->line);
+    if (c->past)
+        for (size_t k = 0; k < n; k++) free(c->past[k].moment);
+    free(c->past);
     free(c->motion);
     free(imposed);
     free(now);

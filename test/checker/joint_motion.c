@@ -22,7 +22,7 @@
 
 /* Rounding of places, per largest coordinate; of rotations; of forces and energies, per sizes. */
 static const double PLACES = 1e-13, TURNS = 1e-13, FORCES = 1e-10, ENERGIES = 1e-9, SUMS = 1e-14;
-/* A depth is known to so many roundings of places. */
+/* Roundings of coordinates in a depth, and in a difference of places that are turned. */
 static const double ROUNDINGS = 16;
 enum { SIMPSON = 64 };
 
@@ -178,8 +178,24 @@ static void check_span(double span, const Formula *formula, MotionFind *find, vo
         find(user, "span of the scheme", span, (double)formula->span);
 }
 
-/* The reference and v* against the two steps before; what bore then has forgotten its motion along
- * the normal. */
+/* What bore before has forgotten its motion along the normal, and has that of the ground: its place
+ * before that is h times the ground's velocity back, and both velocities are the ground's. */
+static void check_past(const PointSteps *s, Real back, MotionFind *find, void *user) {
+    const PointMotion *m = s->motion;
+    const double noise = PLACES * s->reach;
+    Real place = 0, velocity = 0;
+    if (!s->was_stopped) return;
+    for (int a = 0; a < 3; a++) {
+        place += ((Real)m->reference[a] - s->before->position[a]) * s->before->normal[a];
+        velocity += (Real)m->rest_velocity[a] * s->before->normal[a];
+    }
+    compare("reference off that of the ground, along the normal", (double)place,
+            (double)back * s->h_before * s->rate_before, noise, find, user);
+    compare("v* off the velocity of the ground, along the normal, times k",
+            (double)velocity * m->span, s->rate_before * m->span, noise, find, user);
+}
+
+/* The reference and v* against the two steps before. */
 static void check_point_scheme(const PointSteps *s, MotionFind *find, void *user) {
     const PointMotion *m = s->motion;
     const Real back = formula_of(m->span, s->h, s->h_before).back;
@@ -192,6 +208,7 @@ static void check_point_scheme(const PointSteps *s, MotionFind *find, void *user
         velocity[a] = m->rest_velocity[a] - star(back, s->motion_before->velocity[a],
                                                  s->older ? s->motion_older->velocity[a] : 0);
     }
+    if (!euler) check_past(s, back, find, user);
     if (bore && !euler) across(place, s->before->normal);
     if (bore && !euler) across(velocity, s->before->normal);
     if (m->velocity_given && s->is_free) find(user, "given velocity of a point that is free", 1, 0);
@@ -236,7 +253,7 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
     if (bears) {
         Real along = 0;
         for (int a = 0; a < 3; a++) along += (Real)m->velocity[a] * s->now->normal[a];
-        compare("velocity out of the ground, times k", (double)along * m->span, 0,
+        compare("velocity out of the ground, times k", ((double)along - s->rate) * m->span, 0,
                 PLACES * s->reach, find, user);
     }
     if (!s->before) return;
@@ -250,13 +267,19 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
     for (int a = 0; a < 3; a++) {
         const Real way = (Real)s->now->position[a] - s->before->position[a];
         const Real force = (Real)s->now->lines[a] + s->now->load[a] - s->now->residual[a];
-        work += force * way;
-        sizes += fabsl(force * way);
+        const Real push =
+            ((Real)s->now->friction[a] + (Real)s->now->reaction * s->now->normal[a]) * s->ground[a];
+        work += force * way + push;
+        sizes += fabsl(force * way) + fabsl(push);
         rounding += SUMS * s->largest * fabsl(way);
     }
     compare("energy lost to the damping of what gives", m->damped, (double)s->soft.damped,
             ENERGIES * fabs(m->damped) + PLACES * s->reach * (double)s->soft.slope + 1e-300, find,
             user);
+    /* the ways of point and ground, which may be one, are differences of places */
+    if (size(s->ground) > 0)
+        rounding +=
+            ROUNDINGS * DBL_EPSILON * s->reach * (size(s->now->friction) + s->now->reaction);
     const double spent =
         s->now->dissipated + m->growth + m->impact + m->scheme + m->damped + (double)s->soft.stored;
     sizes += fabs(s->now->dissipated) + fabs(m->growth) + m->impact + fabs(m->scheme) +

@@ -39,6 +39,9 @@ typedef struct PointSteps {
     const PointMotion *motion, *motion_before, *motion_older;
     double h, h_before, reach; /* [s] lengths of steps; [m] of the largest coordinate */
     double largest;            /* [N] force in the lines, which may cancel at the point */
+    /* of what it touches: the way in the step, and the velocity along the normal, also before */
+    double ground[3];         /* [m] */
+    double rate, rate_before; /* [m/s] */
     bool is_free;
     bool is_stopped, was_stopped; /* by something rigid on which it bears; in the step before */
     SoftWork soft;                /* of what gives below it */

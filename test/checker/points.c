@@ -36,8 +36,9 @@ static const double ROUNDINGS = 16;
 
 typedef struct Points {
     const Source *source;
-    Record *line;                                       /* (lines) of the step */
-    Junction *now, *before, *older;                     /* (points) */
+    Record *line;                   /* (lines) of the step */
+    Junction *now, *before, *older; /* (points) */
+    double *rate, *rate_before;     /* (points) [m/s] of what each touches, along the normal */
     PointMotion *motion, *motion_before, *motion_older; /* (points) */
     Water *water;                                       /* (points) of the step */
     Anchor *anchor;                                     /* (points) */
@@ -246,13 +247,20 @@ static void check_water(const Points *p, const Junction *at) {
         find(p, "it is said to be above the water %.6g m below the surface", -height);
 }
 
+/* The share of the step for which an obstacle carries the reference along. */
+static double share_of(const Points *p) {
+    const double span = p->motion[p->point].span, h = step_length_of(p->source, p->step);
+    return span > 0 ? span / h : 1;
+}
+
 /* What a surface that gives opposes to a free point. */
 static SoftPush push_of(const Points *p, const Surface *surface, const Junction *at) {
     const PointMotion *motion = &p->motion[p->point];
     Real x[3], from[3], carried[3];
     widen(at->position, x);
     widen(motion->reference, from);
-    surface_carry(surface, from, 1, p->line[0].turn[surface - p->source->surface], carried);
+    surface_carry(surface, from, share_of(p), p->line[0].turn[surface - p->source->surface],
+                  carried);
     return soft_point_push(surface,
                            soft_point_area(p->source, p->line, p->point, p->area[p->point]), x,
                            carried, motion->span);
@@ -342,6 +350,47 @@ static double bound_of(const Points *p, const Junction *at) {
     return mu * (p->source->consistent ? at->reaction : p->before[p->point].reaction);
 }
 
+/* [m] The way of what a point touches, there, in a step in time. As every velocity of the scheme
+ * its own is a difference over the span k: of the place and of where its matter was k before. */
+static void ground_way(const Points *p, const Junction *at, double way[3]) {
+    const double share = share_of(p);
+    for (int a = 0; a < 3; a++) way[a] = 0;
+    if (at->obstacle < 0 || !(p->motion[p->point].span > 0)) return;
+    const Surface *on = &p->source->surface[at->obstacle];
+    const double turn = p->line[0].turn[at->obstacle];
+    Real x[3], was[3];
+    if (turn == 0 && !surface_moves(on)) return;
+    widen(at->position, x);
+    surface_uncarry(on, x, share, turn, was);
+    for (int a = 0; a < 3; a++) way[a] = (double)((x[a] - was[a]) / share);
+}
+
+/* [m/s] How fast the surface itself moves there along its normal: a turn about its own axis moves
+ * it into itself. */
+static double ground_rate(const Points *p, const Junction *at) {
+    Real x[3], was[3], rate = 0;
+    if (at->obstacle < 0 || !(p->motion[p->point].span > 0)) return 0;
+    widen(at->position, x);
+    surface_unshift(&p->source->surface[at->obstacle], x, share_of(p), was);
+    for (int a = 0; a < 3; a++) rate += (x[a] - was[a]) * at->normal[a];
+    return (double)(rate / p->motion[p->point].span);
+}
+
+/* In time the slip is from x*, and friction works on the whole way less that of the ground. */
+static void check_work(const Points *p, const Junction *at) {
+    const double lost = at->dissipated, reach = size(at->position) + p->length[p->point];
+    double way[3], off[3], sizes = 0;
+    ground_way(p, at, way);
+    for (int a = 0; a < 3; a++) {
+        off[a] = at->position[a] - p->before[p->point].position[a] - way[a];
+        sizes = fmax(sizes, fmax(fabs(off[a]), fabs(way[a])));
+    }
+    /* where matter was that has turned is known to some roundings, over the share of the step */
+    const double rounding = size(way) > 0 ? 4 * ROUNDINGS * DBL_EPSILON * reach : 0;
+    at_most(p, "dissipated energy against the work of friction in time",
+            fabs(lost + dot(at->friction, off)), p->largest * (2 * SUMS * sizes + rounding));
+}
+
 static void check_friction(const Points *p, const Junction *at) {
     if (at->obstacle < 0) return;
     const Surface *surface = &p->source->surface[at->obstacle];
@@ -357,12 +406,7 @@ static void check_friction(const Points *p, const Junction *at) {
     at_most(p, "friction above its bound", size(at->friction) - bound, force);
     const double slid = -dot(at->friction, at->slip);
     const PointMotion *motion = &p->motion[p->point];
-    if (motion->span > 0 && p->step > 0) { /* the slip is from x*, the work on the whole way */
-        double whole[3];
-        for (int a = 0; a < 3; a++) whole[a] = at->position[a] - p->before[p->point].position[a];
-        at_most(p, "dissipated energy against the work of friction in time",
-                fabs(at->dissipated + dot(at->friction, whole)), SUMS * p->largest * size(whole));
-    }
+    if (motion->span > 0 && p->step > 0) check_work(p, at);
     if (!(motion->span > 0))
         at_most(p, "dissipated energy against the work of friction",
                 fabs(at->dissipated - fmax(0, slid)), SUMS * p->largest * size(at->slip));
@@ -379,7 +423,7 @@ static void check_friction(const Points *p, const Junction *at) {
     Real from[3], to[3], carried[3], slip[3];
     widen(motion->span > 0 ? motion->reference : p->before[p->point].position, from);
     widen(at->position, to);
-    surface_carry(surface, from, 1, p->line[0].turn[at->obstacle], carried);
+    surface_carry(surface, from, share_of(p), p->line[0].turn[at->obstacle], carried);
     const Surface level = soft_level(surface, to);
     surface_slip(&level, carried, to, slip);
     at_most(p, "error of the slip", apart(at->slip, slip), 2 * way);
@@ -441,20 +485,24 @@ static void check_motion(Points *p) {
     const Junction *at = &p->now[p->point];
     const double reach = size(at->position) + p->length[p->point];
     const double h = step_length_of(p->source, p->step);
-    const PointSteps steps = {.now = at,
-                              .before = p->step > 0 ? &p->before[p->point] : NULL,
-                              .older = p->step > 1 ? &p->older[p->point] : NULL,
-                              .motion = motion,
-                              .motion_before = &p->motion_before[p->point],
-                              .motion_older = &p->motion_older[p->point],
-                              .h = h,
-                              .h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0,
-                              .reach = reach,
-                              .largest = p->largest,
-                              .is_free = !is_held(at),
-                              .is_stopped = is_stopped(p, at),
-                              .was_stopped = p->step > 0 && is_stopped(p, &p->before[p->point]),
-                              .soft = soft_work_of(p, at)};
+    p->rate[p->point] = ground_rate(p, at);
+    PointSteps steps = {.now = at,
+                        .before = p->step > 0 ? &p->before[p->point] : NULL,
+                        .older = p->step > 1 ? &p->older[p->point] : NULL,
+                        .motion = motion,
+                        .motion_before = &p->motion_before[p->point],
+                        .motion_older = &p->motion_older[p->point],
+                        .h = h,
+                        .h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0,
+                        .reach = reach,
+                        .largest = p->largest,
+                        .rate = p->rate[p->point],
+                        .rate_before = p->rate_before[p->point],
+                        .is_free = !is_held(at),
+                        .is_stopped = is_stopped(p, at),
+                        .was_stopped = p->step > 0 && is_stopped(p, &p->before[p->point]),
+                        .soft = soft_work_of(p, at)};
+    ground_way(p, at, steps.ground);
     point_motion_check(&steps, find_in_time, p);
     for (size_t i = 0; i < 2 * p->source->lines; i++) {
         const Record *r = &p->line[i / 2];
@@ -542,6 +590,9 @@ static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
         p->motion_older = p->motion_before;
         p->motion_before = p->motion;
         p->motion = swap_motion;
+        double *swap_rate = p->rate_before;
+        p->rate_before = p->rate;
+        p->rate = swap_rate;
     }
     return 0;
 }
@@ -577,6 +628,8 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     p.now = calloc(source->points, sizeof *p.now);
     p.before = calloc(source->points, sizeof *p.before);
     p.older = calloc(source->points, sizeof *p.older);
+    p.rate = calloc(source->points, sizeof *p.rate);
+    p.rate_before = calloc(source->points, sizeof *p.rate_before);
     p.motion = calloc(source->points, sizeof *p.motion);
     p.motion_before = calloc(source->points, sizeof *p.motion_before);
     p.motion_older = calloc(source->points, sizeof *p.motion_older);
@@ -586,8 +639,8 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     p.dragged = calloc(source->points, sizeof *p.dragged);
     p.area = calloc(source->points, sizeof *p.area);
     p.has_surface = water_surface(source, &p.surface);
-    int bad = !p.line || !p.water || !p.now || !p.before || !p.older || !p.motion ||
-                      !p.motion_before || !p.motion_older || !p.length
+    int bad = !p.line || !p.water || !p.rate || !p.rate_before || !p.now || !p.before || !p.older ||
+                      !p.motion || !p.motion_before || !p.motion_older || !p.length
                   ? -1
                   : open_lines(&p, log);
     if (!bad) bad = !p.anchor || !p.dragged ? -1 : anchors_open(source, p.anchor, log);
@@ -607,6 +660,8 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     free(p.now);
     free(p.before);
     free(p.older);
+    free(p.rate);
+    free(p.rate_before);
     free(p.motion);
     free(p.motion_before);
     free(p.motion_older);

@@ -265,6 +265,17 @@ void surface_carry(const Surface *s, const Real *x, Real share, Real turn, Real 
     for (int k = 0; k < 3; k++) out[k] = here[k] + (turned[k] - v[k]);
 }
 
+void surface_uncarry(const Surface *s, const Real *x, Real share, Real turn, Real *out) {
+    Real v[3], spin[3], turned[3], here[3];
+    for (int k = 0; k < 3; k++) {
+        v[k] = x[k] - s->point[k];
+        spin[k] = -share * turn * s->axis[k];
+    }
+    surface_spin(v, spin, turned);
+    for (int k = 0; k < 3; k++) here[k] = x[k] + (turned[k] - v[k]);
+    surface_unshift(s, here, share, out);
+}
+
 void surface_own(const Surface *s, const Real *x, const Real *reference, Real share, Real *out) {
     Real from[3], was[3];
     surface_shift(s, reference, share, from);

@@ -90,6 +90,8 @@ void surface_shift(const Surface *surface, const Real *x, Real share, Real *out)
 void surface_unshift(const Surface *surface, const Real *x, Real share, Real *out);
 /* x carried along by that, and by a share of a turn about the surface's own axis. */
 void surface_carry(const Surface *surface, const Real *x, Real share, Real turn, Real *out);
+/* ... and back: where that took x from. */
+void surface_uncarry(const Surface *surface, const Real *x, Real share, Real turn, Real *out);
 /* The path of the surface under x, where a node has come to from `reference`, plus its slip. */
 void surface_own(const Surface *surface, const Real *x, const Real *reference, Real share,
                  Real *out);

@@ -22,7 +22,7 @@ water_surface: 2
 waves: {depth: 20, file: sea.csv}
 bodies:
   hull: {held: [9, 0, 0]}
-  buoy: {free: [30, 0, 0], mass: 200, moments_of_inertia: [9, 9, 9]}
+  buoy: {free: [30, 0, 0], mass: 200, moments_of_inertia: [9, 9, 9], radiation: kernel.csv}
 points:
   eye: {body: hull, at: [0, 0, 0]}
   knot: {held: [0, 0, 0]}
@@ -36,13 +36,27 @@ history:
         "sea.csv": "amplitude,period,direction,phase\nm,s,degree,degree\n0.5,5,0,10\n0.2,3,40,0\n",
         "hull.csv": "time,x,ry\ns,m,deg\n0,0,0\n1,0.2,3\n2,0.1,-2\n",
         "knot.csv": "# east\ntime,x,y,z\n0,0,0,0\n1,0.1,0,0.2\n3,0,0,0\n",
+        "kernel.csv": "time,k11,k15,k55\ns,N/m,N,N m\n0,9,1,8\n0.5,3,0,1\n1,0,0,0\n",
         "load.csv": "time,fx,mz\n-1,0,0\n4,900,20\n"}
 HULL = "time, x (optional), y (optional), z (optional), rx (optional), ry (optional), rz (optional)"
 KNOT = "time, x (optional), y (optional), z (optional)"
 LOAD = "time, fx (optional), fy (optional), fz (optional), mx (optional), my (optional), mz (optional)"
+KERNEL = "time, k11 (optional), k12 (optional) .. k66 (optional)"
 SEA = "amplitude, period (optional), frequency (optional), direction, phase (optional)"
 # name, file, what is replaced in it (empty: all), by what, exit code, expected after the folder
 CHANGES = [
+    ("no kernel file", "scene.yaml", "kernel.csv", "kernels.csv", IO, "kernels.csv: "),
+    ("a kernel in numbers", "scene.yaml", "kernel.csv", "[[0, 1]]", INPUT, "scene.yaml:7:"),
+    ("a kernel of another name", "kernel.csv", "k55", "k77", INPUT, f"kernel.csv:1:14: found the column 'k77', expected a line of names: {KERNEL}"),
+    ("a kernel without time", "kernel.csv", "time", "k12", INPUT, f"kernel.csv:1:1: the column 'time' is missing, expected a line of names: {KERNEL}"),
+    ("a kernel of times alone", "kernel.csv", "", "time\n0\n1\n", INPUT, "kernel.csv: found times alone, expected a column beside them"),
+    ("a kernel of one row", "kernel.csv", "0.5,3,0,1\n1,0,0,0\n", "", INPUT, "kernel.csv: found one row, expected at least two"),
+    ("a kernel at uneven times", "kernel.csv", "0.5,3", "0.6,3", INPUT, "scene.yaml:7:70: body 'buoy': radiation: row 2 is at 0.6 s, expected finite numbers, and times 0, g, 2 g, .. of one spacing, here 0.5 s"),
+    ("a kernel that begins later", "kernel.csv", "0,9,1,8\n", "0.1,9,1,8\n", INPUT, "scene.yaml:7:70: body 'buoy': radiation: row 1 is at 0.1 s"),
+    ("a kernel that ends at once", "kernel.csv", "0.5,3,0,1\n1,0,0,0\n", "0,1,1,1\n", INPUT, "scene.yaml:7:70: body 'buoy': radiation: the last row is at 0 s, expected a time > 0"),
+    ("a kernel that drives", "kernel.csv", "0,9,1,8", "0,9,10,8", INPUT, "scene.yaml:7:70: body 'buoy': radiation: the kernel at 0 s would drive some motion: its symmetric part has a negative eigenvalue"),
+    ("a negative kernel", "kernel.csv", "0,9,1,8", "0,-9,1,8", INPUT, "scene.yaml:7:70: body 'buoy': radiation: the kernel at 0 s would drive some motion"),
+    ("NaN in a kernel", "kernel.csv", "0.5,3", "0.5,nan", INPUT, "kernel.csv:4:5: "),
     ("no such file", "scene.yaml", "series: hull.csv", "series: hul.csv", IO, "hul.csv: "),
     ("a file elsewhere", "scene.yaml", "series: hull.csv", "series: ../hull.csv", INPUT, "scene.yaml:16:77: 'series': found '../hull.csv', expected the name of a file beside this one, without '/'"),
     ("a series in numbers", "scene.yaml", "series: hull.csv", "series: [[0, 0], [1, 1]]", INPUT, "scene.yaml:16:77: 'series': found a list of 2"),

@@ -331,6 +331,22 @@ history:
 """
 
 
+def half_turn():
+    """Near half a turn from the start, where the rotation vector jumps, load and moment are those of the side on which the body is."""
+    write("turned.yaml", """capstan: 1
+bodies: {b: {held: [0, 0, 0], weight: 10, hydrostatics: {z: 5, rx: 30, ry: 40, rz: 70}}}
+points: {e: {body: b, at: [1, 0, 0]}}
+lines: {s: {length: 9, elements: 3, weight: 1, stiffness: 1e4, start: static, ends: {A: {held: [5, 0, 3]}, B: {point: e}}}}
+history:
+  - {name: on its way, b.body: {rotation: {quaternion: [0.6, 0.48, 0, 0.64]}}}
+  - {name: nearly, b.body: {rotation: {quaternion: [4e-5, 0.6, 0, 0.8]}}}
+  - {name: beyond, b.body: {rotation: {quaternion: [-4e-5, 0.6, 0, 0.8]}}}
+""")
+    run("turned.yaml", "-q", "-o", "turned")
+    done = subprocess.run([sys.argv[2], "turned/result.nc", "turned.yaml"], capture_output=True, text=True, check=False)
+    expect("half a turn", done.returncode == 0, done.stdout)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
@@ -354,6 +370,8 @@ def main():
         expect("the same bytes with three threads", read("threads/bodies.csv") == whole)
         expect("no stiffness where none is asked for", not os.path.exists("threads/body-stiffness.csv"))
         killed_and_resumed("scene.yaml", whole)
+
+        half_turn()
 
         # a run without bodies
         run("plain.yaml", "-q", "-o", "out")

@@ -22,6 +22,13 @@ history:
 solver: {path_tolerance: TOLERANCE}
 """
 
+SWING = """capstan: 1
+obstacles: {bed: {plane: {}, friction: 0.6}}
+lines:
+  chain: {length: 10, elements: 20, mass: 5, stiffness: 5e5, start: static, ends: {A: {held: [0, 0, 0]}, B: {held: [8, 0, 4]}}}
+history: [{name: swing, duration: 9, time_step: 0.05, chain.B: {move: [0, 0, 0], CHANGE}}]
+"""
+
 # A rope over balls, one of which turns: between the equilibria before and after its first step lies a jump.
 BRANCH = """capstan: 1
 gravity: [0, 0, -9.81]
@@ -88,6 +95,26 @@ def loops(capstan, directory):
     assert cuts == 1
 
 
+def cycles(capstan, directory):
+    """The last cycle of an end that swings in one entry: by sixty steps from the end, or a series as a whole; and none where no cycle ends."""
+    for change, first in (("sine: [0.5, 0, 0.1], period: 3", 121), ("cosine: [0.5, 0, 0.1], period: 3", 121), ("series: way.csv", 1),
+                          ("sine: [0.5, 0, 0.1], period: 10", None)):
+        with open(os.path.join(directory, "way.csv"), "w", encoding="utf-8") as file:
+            file.write("time,x\n0,0\n3,0.5\n6,0.1\n9,0\n")
+        steps, _, _ = run(capstan, directory, SWING.replace("CHANGE", change))
+        drawn = os.path.join(directory, "out", "loop-swing.svg")
+        assert os.path.exists(drawn) == (first is not None), change
+        if first is None:
+            continue
+        with open(drawn, encoding="utf-8") as file:
+            text = file.read()
+        assert f"steps {first} to 181, from" in text and text.count("<circle") == 2*(182 - first), change
+        # end A is at rest
+        work, lost = (sum(step["ledger_J"][key] for step in steps[first:]) for key in ("ends", "dissipated"))
+        assert abs(read_joule("at this end", text) - work) <= 6e-4*abs(work), (change, work)
+        assert abs(read_joule("dissipated by friction", text) - lost) <= 6e-4*lost, (change, lost)
+
+
 def exchanged(ledger):
     """Dissipated plus positive work."""
     return ledger["dissipated"] + sum(max(0, x) for x in (ledger["ends"], ledger["obstacles"], -ledger["elastic"], -ledger["gravity"]))
@@ -137,7 +164,7 @@ def falls(capstan, directory):
 
 def main():
     with tempfile.TemporaryDirectory() as directory:
-        for check in (loops, branches, names, falls):
+        for check in (loops, cycles, branches, names, falls):
             check(sys.argv[1], directory)
             print(check.__name__, "passed")
 

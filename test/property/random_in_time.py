@@ -5,9 +5,10 @@
 usage: random_in_time.py CAPSTAN CHECKER [--count N] [--seed S] [--only CLASS] [--keep FOLDER]
 
 Of each class N scenes: `drop`, a line thrown on ground; `clump`, a point on lines let go above it and pulled about; `body`, a body on lines
-whose anchors move; `drum`, a line over a drum that turns and moves; `ground`, a line on ground that moves and turns; `snatch`, a slack line
+whose anchors move; `drum`, a line over a drum that turns and moves; `ground`, a line on ground that moves and turns; `belt`, clumps on lines on such ground, also thrown up; `wheel`, clumps or a body on lines
+over a drum that turns, also more than once, and moves; `rider`, a clump on such a drum; `snatch`, a slack line
 whose end swings until it is taut; `slide`, a line on ground whose end is pulled to and fro; `wave`, a line on a bed in waves. Of three in ten,
-bodies excepted, the last entry is quasi-static, and brings all to rest where that is possible. They differ in
+bodies and what ground carries excepted, the last entry is quasi-static, and brings all to rest where that is possible. They differ in
 size, in the place and direction of all (gravity need not be along z), in slope, friction, stiffness, scheme and length of the steps. Of each
 class at least 995 of 1000 records must be certified and none refuted, and the remainder of each ledger is below 1e-10 of its turnover, as the
 file has it; of all classes together at least five of each event must be there for each scene.
@@ -24,7 +25,7 @@ from random_swims import Swim, some, vector  # noqa: E402
 
 CERTIFIED, REMAINDER, EACH = 0.995, 1e-10, 5
 ROUNDING = 1e-15  # of an energy; a history in which hardly anything moves turns over 1e-8 of what is stored
-CLASSES = ["drop", "clump", "body", "drum", "ground", "snatch", "slide", "wave"]
+CLASSES = ["drop", "clump", "body", "drum", "ground", "belt", "wheel", "rider", "snatch", "slide", "wave"]
 EVENTS = ["landed", "changed", "snatched"]
 TOTAL = dict.fromkeys(EVENTS + ["scenes"], 0)
 
@@ -56,7 +57,7 @@ class Scene:
         self.time = math.sqrt(self.size / 9.81)
         self.rotation = turned(dice)
         # places keep their digits beyond 512 lengths, and lose up to three before, which the residuals of points show
-        near, far = 1e-3 if kind in ("clump", "body") else dice.random(), dice.uniform(600, 1e4)
+        near, far = 1e-3 if kind in ("clump", "body", "belt", "wheel", "rider") else dice.random(), dice.uniform(600, 1e4)
         self.origin = [dice.choice([0, 0, 300 * near, far, -far]) * self.size for _ in range(3)]
         self.slope = [dice.choice([0, 0, dice.uniform(-0.4, 0.4)]), dice.choice([0, dice.uniform(-0.2, 0.2)]), 1.0]
 
@@ -223,6 +224,109 @@ class Scene:
             out += self.entry(f"stage{k}", dice.uniform(0.5, 2), change)
         return out
 
+    def belt(self):
+        """Clumps, joined by lines and thrown up or not, on ground that moves and turns, to and fro."""
+        dice, count = self.dice, self.dice.randint(1, 3)
+        places = [[0.5 * i + dice.uniform(-0.1, 0.1), dice.uniform(-0.2, 0.2)] for i in range(count)]
+        above = dice.choice([0.0, 0.0, dice.uniform(0.01, 0.2)])
+        for x in places:
+            x.append(self.low(*x) + above)
+        anchor = [-0.6, dice.uniform(-0.2, 0.2), 1.0]
+        throw = [dice.uniform(-0.5, 0.5), dice.uniform(-0.5, 0.5), dice.uniform(0, 0.7)] if dice.random() < 0.4 else [0.0] * 3
+        velocity = self.along([a * self.size / self.time for a in throw])
+        out = "obstacles:\n" + self.bed() + "points:\n"
+        for i, x in enumerate(places):
+            out += f"  c{i}: {{free: {self.at(x)}, mass: {self.mass * self.size * 10 ** dice.uniform(-1, 1)!r}, velocity: {velocity}}}\n"
+        out += "lines:\n"
+        ties = [(places[i], places[i + 1], f"A: {{point: c{i}}}, B: {{point: c{i + 1}}}") for i in range(count - 1)]
+        if count == 1 or dice.random() < 0.4:
+            ties.append((anchor, places[0], "A: held, B: {point: c0}"))
+        for i, (a, b, ends) in enumerate(ties):
+            quasi, strain = dice.choice(["", "", "", ", quasi_static: true"]), 10 ** dice.uniform(-4, -2.5)
+            out += (f"  l{i}: {{length: {self.size * math.dist(a, b) * (1 - strain)!r}, {self.make(True, (2, 20))}{quasi}, start: {{straight: {{from: {self.at(a)}, to: {self.at(b)}}}}}, "
+                    f"ends: {{{ends}}}}}\n")
+        out += "history:\n"
+        for k in range(dice.randint(2, 4)):
+            move = f"move: {self.by([a * b for a, b in zip(some(dice, 1), (0.4, 0.4, 0.15))])}" if dice.random() < 0.7 else ""
+            turn = f"turn: {dice.uniform(-200, 200)!r}, axis: {self.along(self.slope)}, about: {self.at(some(dice, 0.5))}" if dice.random() < 0.5 or not move else ""
+            if turn and dice.random() < 0.4:
+                turn = f"turn: {dice.uniform(-15, 15)!r}, axis: {self.along(some(dice, 1))}, about: {self.at([0, 0, self.low(0, 0)])}"
+            change = f", bed.obstacle: {{{', '.join(p for p in (move, turn) if p)}}}" if dice.random() < 0.8 else ""
+            out += self.entry(f"stage{k}", dice.uniform(0.5, 2), change)
+        return out
+
+    def wheel(self):
+        """Clumps or a body on lines over a drum that turns, some of them more than once, and moves. A body has no contact: it hangs below."""
+        dice, radius, count, body = self.dice, self.dice.uniform(0.1, 0.2), self.dice.randint(1, 2), self.dice.random() < 0.5
+        shape = dice.choice(["cylinder", "cylinder", "capsule", "sphere"]) if count == 1 else "cylinder"
+        on = {"cylinder": f"cylinder: {{point: {self.at([0, 0, 0])}, axis: {self.along([0, 1, 0])}",
+              "capsule": f"capsule: {{centre: {self.at([0, 0, 0])}, axis: {self.along([0, 1, 0])}, length: {self.size!r}",
+              "sphere": f"sphere: {{centre: {self.at([0, 0, 0])}, axis: {self.along([0, 1, 0])}"}[shape]
+        out = f"obstacles:\n  drum: {{{on}, radius: {self.size * radius!r}}}, friction: {self.friction()}}}\n"
+        if dice.random() < 0.5 and not body:
+            out += self.bed(-dice.uniform(0.7, 0.9))
+        heavy = self.mass * self.size * 10 ** dice.uniform(-1, 1)
+        hung = [radius, 0.0, -dice.uniform(0.35, 0.4)] if body else [0.35, 0.0, -dice.uniform(0, 0.2)]
+        let_go, places = [], []
+        if body:
+            inertia = vector([heavy * (0.1 * self.size) ** 2 * dice.uniform(0.5, 2)] * 3)
+            out += f"bodies: {{hull: {{held: {self.at(hung)}, mass: {heavy!r}, moments_of_inertia: {inertia}}}}}\n"
+            let_go.append("hull.body: {force: [0, 0, 0]}")
+        out += "points:\n"
+        for i in range(count):
+            y = 0.1 * (i - 0.5 * (count - 1))
+            far, near = [-0.45, y, -dice.uniform(0, 0.2)], [hung[0] + dice.uniform(-0.03, 0.03), y, hung[2] + dice.uniform(0, 0.03)]
+            out += (f"  p{i}: {{body: hull, at: {self.by([a - b for a, b in zip(near, hung)])}}}\n" if body else
+                    f"  p{i}: {{held: {self.at(near)}, mass: {heavy * dice.uniform(0.5, 2)!r}}}\n")
+            out += f"  q{i}: {{held: {self.at(far)}, mass: {heavy * dice.uniform(0.5, 2)!r}}}\n"
+            away = math.hypot(far[0], far[2])  # round the drum, and down to what hangs
+            round_it = radius * (math.atan2(-far[2], -far[0]) + math.pi - math.acos(radius / away))
+            places.append(math.sqrt(away ** 2 - radius ** 2) + round_it - near[2])
+            freed = not body and dice.random() < 0.6
+            let_go += [] if body else [f"p{i}.point: {{force: [0, 0, 0]}}"]
+            let_go += [f"q{i}.point: {{force: [0, 0, 0]}}"] if freed else []
+            # one that falls with both ends is not quasi-static
+            places[i] = (places[i], "" if freed else dice.choice(["", "", "", ", quasi_static: true"]))
+        out += "lines:\n"
+        for i, (length, quasi) in enumerate(places):
+            slack = dice.uniform(1, 1.03) if body else dice.uniform(1.02, 1.3)
+            out += (f"  l{i}: {{length: {self.size * length * slack!r}, {self.make(True, (24, 50))}{quasi}, start: static, "
+                    f"ends: {{A: {{point: q{i}}}, B: {{point: p{i}}}}}}}\n")
+        out += "history:\n" + self.entry("let go", dice.uniform(0.1, 0.5), ", " + ", ".join(let_go))
+        for k in range(dice.randint(1, 3)):
+            angle = dice.uniform(-15 if body else -90, 90) * dice.choice([1, 1, 1, 8])
+            turn = f", drum.turn: {max(angle, -15.0) if body else angle!r}" if dice.random() < 0.7 else ""
+            move = f", drum.obstacle: {{move: {self.by(some(dice, 0.1))}}}" if dice.random() < 0.5 else ""
+            out += self.entry(f"stage{k}", dice.uniform(0.5, 2), turn + move, dice.randint(math.ceil(abs(angle) / 45) + 8, 200))
+        return out
+
+    def rider(self):
+        """A clump on a drum that turns, some of them more than once, and moves, on one or two lines."""
+        dice, radius, count = self.dice, self.dice.uniform(0.1, 0.3), self.dice.randint(1, 2)
+        shape = dice.choice(["cylinder", "cylinder", "capsule", "sphere"])
+        begin = "centre" if shape != "cylinder" else "point"
+        length = f", length: {self.size!r}" if shape == "capsule" else ""
+        out = (f"obstacles:\n  drum: {{{shape}: {{{begin}: {self.at([0, 0, 0])}, axis: {self.along([0, 1, 0])}{length}, "
+               f"radius: {self.size * radius!r}}}, friction: {self.friction()}}}\n")
+        if dice.random() < 0.3:
+            out += self.bed(-dice.uniform(0.5, 0.6))
+        top = [dice.uniform(-0.5, 0.5) * radius, dice.uniform(-0.3, 0.3) * radius]
+        top.append(math.sqrt(radius ** 2 - top[0] ** 2 - (top[1] ** 2 if shape == "sphere" else 0)) * dice.choice([1.0 + 1e-9, 1.02, 1.3]))
+        heavy = self.mass * self.size * 10 ** dice.uniform(-1, 1)
+        out += f"points: {{clump: {{held: {self.at(top)}, mass: {heavy!r}}}}}\nlines:\n"
+        for i in range(count):
+            far = [(0.6, -0.6)[i] + dice.uniform(-0.1, 0.1), dice.uniform(-0.2, 0.2), dice.uniform(0.1, 0.6)]
+            quasi = dice.choice(["", "", "", ", quasi_static: true"])
+            out += (f"  l{i}: {{length: {self.size * math.dist(far, top) * dice.uniform(1.02, 1.5)!r}, {self.make(True, (8, 30))}{quasi}, start: static, "
+                    f"ends: {{A: {{held: {self.at(far)}}}, B: {{point: clump}}}}}}\n")
+        out += "history:\n" + self.entry("let go", dice.uniform(0.1, 0.5), ", clump.point: {force: [0, 0, 0]}")
+        for k in range(dice.randint(1, 3)):
+            angle = dice.uniform(-90, 90) * dice.choice([1, 1, 1, 8])
+            turn = f", drum.turn: {angle!r}" if dice.random() < 0.7 else ""
+            move = f", drum.obstacle: {{move: {self.by(some(dice, 0.1))}}}" if dice.random() < 0.5 else ""
+            out += self.entry(f"stage{k}", dice.uniform(0.5, 2), turn + move, dice.randint(math.ceil(abs(angle) / 45) + 8, 200))
+        return out
+
     def slide(self):
         dice = self.dice
         out = "obstacles:\n" + self.bed() + self.lying()
@@ -270,8 +374,8 @@ class Scene:
 
 
 def rest(dice, kind):
-    """What moves may come to rest at the end; a body not always finds where from far away."""
-    return "  - {name: rest}\n" if kind != "body" and dice.random() < 0.3 else ""
+    """What moves may come to rest at the end; a body not always finds where from far away, and what no anchor holds may have no such place."""
+    return "  - {name: rest}\n" if kind not in ("body", "belt", "wheel", "rider") and dice.random() < 0.3 else ""
 
 
 def remainder(out):

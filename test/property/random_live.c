@@ -189,7 +189,6 @@ static void set_in_motion(Live *live) {
         live->scene.point_count = live->scene.body_count = 0;
         return;
     }
-    for (int k = 0; k < OBSTACLES; k++) live->obstacle[k].moves = false;
     live->scene.line = &live->line[1];
     live->scene.line_count = LINES - 1;
     live->line[1].quasi_static = chance(0.3);
@@ -317,8 +316,8 @@ static void change_obstacle(const CpsEvolution *now, Move *move) {
 
 /* Is there what moves of this kind change? */
 static bool is_there(const Live *live, int kind) {
-    const bool is_joined = kind == 1 || kind == 2;
-    return live->moving == STATICS || is_joined == (live->moving == MOORING_IN_TIME);
+    const bool is_joined = kind == 1 || kind == 2, is_obstacle = kind == 4 || kind == 5;
+    return live->moving == STATICS || is_obstacle || is_joined == (live->moving == MOORING_IN_TIME);
 }
 
 /* Velocities of what is held after a step in time. */

@@ -201,6 +201,7 @@ static const struct SideFile {
     {"other_scene_a.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n0 0\n0 1\n"},
     {"other_scene_s.csv", "time,z\n0,0\n2,0.1\n"},
     {"other_scene_t.csv", "time,z\n0,0\n2,0.2\n"},
+    {"other_scene_k.csv", "time,k33\n0,5\n2,0.2\n"},
     {"other_scene_w.csv", "amplitude,period,direction\n0.1,5,20\n"},
     {"other_scene_b.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n1 1\n1 2\n"},
     {"other_scene_c.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter -1\ncellsize 3\n1 1\n1 3\n"},
@@ -365,6 +366,7 @@ static const struct Change POINT_CHANGE[] = {
 };
 
 static const struct Change BODY_CHANGE[] = {
+    {"radiation", "mass: 30,", "mass: 30, radiation: other_scene_k.csv,"},
     {"bodies", SPAR BARGE, BARGE SPAR},
     {"held", "held: [8, 4, 0]", "held: [8, 4.5, 0]"},
     {"free", "free: [4, 0, -3]", "free: [4, 0, -3.5]"},

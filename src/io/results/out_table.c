@@ -103,7 +103,7 @@ static void write_row(FILE *out, const CpsResults *results, const CpsiRow *row) 
         write_values(out, line, LINE_CHANNELS);
     }
     for (int i = 0; i < results->point_count; ++i) {
-        point_values(&row->point[i], point);
+        point_values(&row->point[i].report, point);
         write_values(out, point, POINT_CHANNELS);
     }
     for (int i = 0; i < results->body_count; ++i) {

@@ -38,12 +38,20 @@ static int cut(char *text, char **cell, int capacity) {
     return count;
 }
 
-/* "time, x, y (optional)" */
+/* "time, x, y (optional)"; of many the first ones and the last one. */
 static void list_names(const TableReader *r, char *out, size_t size) {
+    enum { MANY = 12, FIRST = 3 };
     size_t at = 0;
-    for (int k = 0; k < r->count && at < size; k++)
-        at += (size_t)snprintf(out + at, size - at, "%s%s%s", k > 0 ? ", " : "", r->column[k].name,
+    for (int k = 0; k < r->count && at < size; k++) {
+        const bool skips = r->count > MANY && k == FIRST;
+        if (skips) k = r->count - 1;
+        at += (size_t)snprintf(out + at, size - at, "%s%s%s",
+                               skips   ? " .. "
+                               : k > 0 ? ", "
+                                       : "",
+                               r->column[k].name,
                                r->column[k].need == CPSI_CSV_REQUIRED ? "" : " (optional)");
+    }
 }
 
 static CpsStatus read_names(TableReader *r, char *text) {

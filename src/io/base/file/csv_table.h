@@ -22,7 +22,7 @@ typedef struct CpsiCsvColumn {
     CpsiCsvNeed need;
 } CpsiCsvColumn;
 
-enum { CPSI_CSV_COLUMNS = 16 }; /* at most */
+enum { CPSI_CSV_COLUMNS = 40 }; /* at most */
 
 typedef struct CpsiCsvTable {
     int names, rows;            /* number of the line of names, from 1; rows */

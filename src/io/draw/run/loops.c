@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The loops that force and displacement of a moved end describe.
  *
- * A loop is a run of stages that move a held end away and back to the same position. With u the
- * displacement along the direction of the farthest point and F the force along it, the loop's area
- * is the work done on the line there, and in a steady cycle the dissipation of friction. The
+ * A loop is a run of stages that move a held end away and back to the same position, or, of a stage
+ * in which the end swings, the last of its cycles, or all of it where it only comes back. With u
+ * the displacement along the direction of the farthest point and F the force along it, the loop's
+ * area is the work done on the line there, and in a steady cycle the dissipation of friction. The
  * figures of the picture are those of the ledger, which includes the substeps of every load step;
  * the curve is straight between steps and may enclose another area. A stiff line's loop is too thin
  * to be visible. The second frame therefore shows F minus the mean f(u) of the paths out and back.
@@ -25,7 +26,17 @@ static const double SAME_DISPLACEMENT = 1e-6;
  * of imposed positions. */
 static const double SAME_PLACE = 1e-9;
 
-enum { MAX_LOOPS = 48, MAX_LOOP_STAGES = 1000, FORCE_HEIGHT = 300, OPENED_HEIGHT = 260 };
+/* Places closer than this share of the way in a stage are the same in a cycle: above the error of
+ * sums over a million steps. */
+static const double SAME_CYCLE = 1e-7;
+
+enum {
+    MAX_LOOPS = 48,
+    MAX_LOOP_STAGES = 1000,
+    MAX_CYCLE_STEPS = 20000,
+    FORCE_HEIGHT = 300,
+    OPENED_HEIGHT = 260
+};
 
 /* Steps first..last (rows) of one end of one line that lead back to the initial position; row first
  * - 1, if there is one, is the state before. */
@@ -55,12 +66,23 @@ static double force(const CpsResults *results, const Loop *loop, int row) {
     return vec3_dot(loop->direction, vec3_load(end_at(results, loop, row)->force));
 }
 
-/* whether the end was held and moved during this stage */
-static bool stage_moves(const CpsResults *results, const Loop *loop, const CpsiStage *stage) {
+/* the row before a stage, or its first one */
+static int before_stage(const CpsiStage *stage) {
+    return stage->first > 0 ? stage->first - 1 : stage->first;
+}
+
+/* whether the end was held during this stage, which has been taken */
+static bool stage_holds(const CpsResults *results, const Loop *loop, const CpsiStage *stage) {
     if (stage->last >= results->row_count || stage->last < 1) return false;
-    const int from = stage->first > 0 ? stage->first - 1 : stage->first;
     for (int row = stage->first; row <= stage->last; ++row)
         if (!results->row[row].line[loop->line].held[loop->end]) return false;
+    return true;
+}
+
+/* whether the end was held and moved during this stage */
+static bool stage_moves(const CpsResults *results, const Loop *loop, const CpsiStage *stage) {
+    if (!stage_holds(results, loop, stage)) return false;
+    const int from = before_stage(stage);
     const Vec3 a = vec3_load(end_at(results, loop, from)->position);
     const Vec3 b = vec3_load(end_at(results, loop, stage->last)->position);
     return vec3_norm(vec3_sub(b, a)) > SAME_PLACE * results->line_length[loop->line];
@@ -81,11 +103,41 @@ static void measure_loop(const CpsResults *results, Loop *loop) {
     }
 }
 
+/* The loop within one stage, in which the end swings: from the last row at which it was where it is
+ * at the end, coming from the same side, or from the beginning if it is there again. */
+static bool find_cycle(const CpsResults *results, Loop *loop, int index) {
+    const CpsiStage *stage = &results->stage[index];
+    if (!stage_holds(results, loop, stage)) return false;
+    const int from = before_stage(stage), last = stage->last;
+    double extent = 0, left = 0;
+    loop->start = last;
+    for (int row = from; row < last; ++row)
+        extent = fmax(extent, vec3_norm(moved(results, loop, row)));
+    if (!(extent > SAME_PLACE * results->line_length[loop->line])) return false;
+    const Vec3 way = moved(results, loop, last - 1);
+    int start = -1;
+    for (int row = last - 1; row > from && start < 0; --row) {
+        const Vec3 place = moved(results, loop, row), earlier = moved(results, loop, row - 1);
+        left = fmax(left, vec3_norm(place));
+        if (left > 0.1 * extent && vec3_norm(place) <= SAME_CYCLE * extent &&
+            vec3_norm(vec3_sub(earlier, way)) <= SAME_CYCLE * extent)
+            start = row;
+    }
+    if (start < 0 && vec3_norm(moved(results, loop, from)) <= SAME_CYCLE * extent) start = from;
+    if (start < 0 || last - start > MAX_CYCLE_STEPS) return false;
+    loop->start = start;
+    loop->first_stage = loop->last_stage = index;
+    loop->last = last;
+    measure_loop(results, loop);
+    return true;
+}
+
 /* The next closed run of stages from `stage` on for the loop's line and end; returns the stage
  * after it, or the number of stages when there is none (loop->last is then -1). */
 static int find_loop(const CpsResults *results, Loop *loop, int stage) {
     loop->last = -1;
     for (; stage < results->stage_count; ++stage) {
+        if (find_cycle(results, loop, stage)) return stage + 1;
         if (!stage_moves(results, loop, &results->stage[stage])) continue;
         const int first = results->stage[stage].first;
         loop->start = first > 0 ? first - 1 : 0;

@@ -368,8 +368,8 @@ static const BodyField BODY_MOTION[CPSI_BODY_MOTIONS] = {
      offsetof(CpsBodyMotion, ledger.scheme), NUMBER_OF},
     {"ledger_settling_of_body", "energy lost where a quasi-static step brings it to rest", "J",
      offsetof(CpsBodyMotion, ledger.settling), NUMBER_OF},
-    {"ledger_drag_of_body", "work done on the water against the drag of members", "J",
-     offsetof(CpsBodyMotion, ledger.drag), NUMBER_OF},
+    {"ledger_drag_of_body", "work done on the water against the drag of members and by radiation",
+     "J", offsetof(CpsBodyMotion, ledger.drag), NUMBER_OF},
     {"ledger_waves_of_body", "work of the water's own acceleration in waves on members", "J",
      offsetof(CpsBodyMotion, ledger.waves), NUMBER_OF},
 };

@@ -37,7 +37,7 @@ static void write_places(const CpsResults *results, FILE *out) {
     static const Vec3 ALONG[AXES] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const CpsiRow *row = last_row(results);
     for (int i = 0; i < results->point_count; ++i)
-        write_row(out, place_of(results, row->point[i].position));
+        write_row(out, place_of(results, row->point[i].report.position));
     for (int i = 0; i < results->body_count; ++i) {
         const CpsBodyReport *report = &row->body[i].report;
         const Vec3 at = place_of(results, report->position);
@@ -52,7 +52,8 @@ static void write_places(const CpsResults *results, FILE *out) {
 /* [N] At each of them: the lines' force, 0 at tips. */
 static void write_forces(const CpsResults *results, FILE *out) {
     const CpsiRow *row = last_row(results);
-    for (int i = 0; i < results->point_count; ++i) write_row(out, vec3_load(row->point[i].lines));
+    for (int i = 0; i < results->point_count; ++i)
+        write_row(out, vec3_load(row->point[i].report.lines));
     for (int i = 0; i < results->body_count; ++i) {
         write_row(out, vec3_load(row->body[i].report.lines));
         for (int a = 0; a < AXES; ++a) write_row(out, vec3(0, 0, 0));

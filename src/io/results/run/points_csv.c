@@ -34,6 +34,21 @@ static const CpsiColumn COLUMN[] = {
     VECTOR("set_reaction", "N", set_reaction),
 };
 
+#define MOVING(name, unit, member)                                 \
+    {name "_x", unit, CPSI_MEMBER(CpsiPointRow, member[0])},       \
+        {name "_y", unit, CPSI_MEMBER(CpsiPointRow, member[1])}, { \
+        name "_z", unit, CPSI_MEMBER(CpsiPointRow, member[2])      \
+    }
+
+/* Where steps have a duration. */
+static const CpsiColumn MOTION_COLUMN[] = {
+    MOVING("velocity", "m/s", motion.velocity),
+    MOVING("inertia", "N", report.inertia),
+    {"kinetic", "J", CPSI_MEMBER(CpsiPointRow, motion.kinetic)},
+    {"impact", "J", CPSI_MEMBER(CpsiPointRow, motion.ledger.impact)},
+    {"scheme", "J", CPSI_MEMBER(CpsiPointRow, motion.ledger.scheme)},
+};
+
 #define BODY(member) CPSI_MEMBER(CpsiBodyRow, member)
 /* a force and a moment */
 #define WRENCH(name, member)                                                                   \
@@ -79,18 +94,21 @@ static const CpsiColumn BODY_MOTION_COLUMN[] = {
 
 enum {
     BODY_MOTION_COLUMNS = sizeof BODY_MOTION_COLUMN / sizeof *BODY_MOTION_COLUMN,
+    MOTION_COLUMNS = sizeof MOTION_COLUMN / sizeof *MOTION_COLUMN,
     COLUMNS = sizeof COLUMN / sizeof *COLUMN,
     BODY_COLUMNS = sizeof BODY_COLUMN / sizeof *BODY_COLUMN
 };
 
 static void write_row(FILE *out, const CpsResults *results, const CpsiRow *row, int point) {
-    const CpsPointReport *report = &row->point[point];
+    const CpsiPointRow *of = &row->point[point];
+    const CpsPointReport *report = &of->report;
     fprintf(out, "%d,", row->report.step_count - 1);
     cpsi_write_csv(out, row->name);
     fputc(',', out);
     cpsi_write_csv(out, results->point[point].name);
     fprintf(out, ",%s", cpsi_point_state(report->state));
     cpsi_csv_values(out, COLUMN, COLUMNS, report);
+    if (results->in_time) cpsi_csv_values(out, MOTION_COLUMN, MOTION_COLUMNS, of);
     fputc(',', out);
     if (report->obstacle != CPS_NO_OBSTACLE)
         cpsi_write_csv(out, results->obstacle[report->obstacle].name);
@@ -101,8 +119,10 @@ static void write_row(FILE *out, const CpsResults *results, const CpsiRow *row, 
 void cpsi_points_write(const CpsResults *results, FILE *out) {
     fputs("step,name,point,state", out);
     cpsi_csv_names(out, COLUMN, COLUMNS, NULL);
+    if (results->in_time) cpsi_csv_names(out, MOTION_COLUMN, MOTION_COLUMNS, NULL);
     fputs(",obstacle,trials,has_place,water\n1,,,", out);
     cpsi_csv_units(out, COLUMN, COLUMNS);
+    if (results->in_time) cpsi_csv_units(out, MOTION_COLUMN, MOTION_COLUMNS);
     fputs(",,1,1,\n", out);
     for (int r = 0; r < results->row_count; ++r)
         for (int i = 0; i < results->point_count; ++i) write_row(out, results, &results->row[r], i);

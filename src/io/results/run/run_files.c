@@ -287,8 +287,8 @@ static bool is_held(const CpsResults *results, const CpsiRow *row, const CpsLine
                     int e) {
     const int point = cpsi_results_point_of(results, row, l, e);
     if (point == CPSI_AT_NO_POINT) return view->end[e].kind == CPS_END_KIND_HELD;
-    if (row->point[point].state != CPS_POINT_STATE_ON_BODY)
-        return row->point[point].state == CPS_POINT_STATE_HELD;
+    if (row->point[point].report.state != CPS_POINT_STATE_ON_BODY)
+        return row->point[point].report.state == CPS_POINT_STATE_HELD;
     return row->body[results->point[point].body].report.kind == CPS_BODY_KIND_HELD;
 }
 
@@ -359,7 +359,8 @@ static bool append_row(CpsResults *results, const CpsEvolution *evolution) {
         return false;
     }
     for (int i = 0; i < results->point_count; ++i)
-        row.point[i] = cps_evolution_point_report(evolution, i);
+        row.point[i] = (CpsiPointRow){cps_evolution_point_report(evolution, i),
+                                      cps_evolution_point_motion(evolution, i)};
     for (int i = 0; i < results->point_count && row.point_stiffness; ++i)
         for (int kind = 0; kind < 2; ++kind)
             cps_evolution_point_stiffness(evolution, i, (CpsStiffnessKind)kind,

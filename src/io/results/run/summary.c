@@ -183,20 +183,52 @@ static void write_certificate(FILE *out, const CpsResults *results, const CpsiRo
     write_number(out, "dissipated_J", row->report.dissipated, ",\n      ");
 }
 
-/* the energy balance of a step */
-static void write_ledger(FILE *out, const CpsStepReport *report, bool winds) {
-    const CpsLedger *ledger = &report->ledger;
-    fprintf(out, "\"substeps\": %d, \"jumps\": %d, ", report->substep_count, report->jump_count);
-    write_number(out, "jump_m", report->jump, ", ");
-    write_number(out, "unaccounted_J", report->unaccounted, ",\n      \"ledger_J\": {");
+/* what a ledger has more where things move in time */
+static void write_motion_ledger(FILE *out, const CpsMotionLedger *ledger) {
+    write_number(out, "waves", ledger->waves, ", ");
+    write_number(out, "kinetic", ledger->kinetic, ", ");
+    write_number(out, "impact", ledger->impact, ", ");
+    write_number(out, "scheme", ledger->scheme, ", ");
+    write_number(out, "settling", ledger->settling, ", ");
+    write_number(out, "damping", ledger->damping, ", ");
+    write_number(out, "drag", ledger->drag, ", ");
+    write_number(out, "added", ledger->added, ", ");
+    write_number(out, "turnover", ledger->turnover, ", ");
+}
+
+static void write_ledger(FILE *out, const CpsResults *results, const CpsLedger *ledger,
+                         const CpsMotionLedger *motion) {
+    fputs("\"ledger_J\": {", out);
     write_number(out, "ends", ledger->ends, ", ");
     write_number(out, "obstacles", ledger->obstacles, ", ");
-    if (winds) write_number(out, "winches", ledger->winches, ", ");
+    if (results->winds) write_number(out, "winches", ledger->winches, ", ");
     if (ledger->loads != 0) write_number(out, "loads", ledger->loads, ", ");
     write_number(out, "elastic", ledger->elastic, ", ");
     write_number(out, "gravity", ledger->gravity, ", ");
     write_number(out, "dissipated", ledger->dissipated, ", ");
-    write_number(out, "imbalance", ledger->imbalance, "},\n      ");
+    if (results->in_time) write_motion_ledger(out, motion);
+    write_number(out, "imbalance", ledger->imbalance, "}");
+}
+
+/* parts, jumps and the energy balance of a step */
+static void write_energy(FILE *out, const CpsResults *results, const CpsiRow *row) {
+    const CpsStepReport *report = &row->report;
+    fprintf(out, "\"substeps\": %d, \"jumps\": %d, ", report->substep_count, report->jump_count);
+    write_number(out, "jump_m", report->jump, ", ");
+    write_number(out, "unaccounted_J", report->unaccounted, ",\n      ");
+    write_ledger(out, results, &report->ledger, &row->motion.of.ledger);
+    fputs(",\n      ", out);
+}
+
+/* where a step stands in time */
+static void write_time(FILE *out, const CpsResults *results, const CpsiMotionRow *motion) {
+    if (!results->in_time) return;
+    fputs("      ", out);
+    write_number(out, "time_s", motion->time, ", ");
+    write_number(out, "time_step_s", motion->pace.length, ", ");
+    write_number(out, "step_error_m", motion->pace.error, ", ");
+    fprintf(out, "\"steps_rejected\": %d, ", motion->pace.rejected);
+    write_number(out, "kinetic_J", motion->of.kinetic, ",\n");
 }
 
 /* the points where lines meet after a step */
@@ -204,7 +236,7 @@ static void write_points(FILE *out, const CpsResults *results, const CpsiRow *ro
     if (results->point_count == 0) return;
     fputs(",\n      \"points\": {\n", out);
     for (int i = 0; i < results->point_count; ++i) {
-        const CpsPointReport *report = &row->point[i];
+        const CpsPointReport *report = &row->point[i].report;
         fputs("        ", out);
         write_key(out, results->point[i].name);
         fputc('{', out);
@@ -224,6 +256,10 @@ static void write_points(FILE *out, const CpsResults *results, const CpsiRow *ro
             write_vector(out, "friction_N", report->friction, ", ");
             write_vector(out, "slip_m", report->slip, ", ");
             write_number(out, "dissipated_J", report->dissipated, ",\n          ");
+        }
+        if (results->in_time) {
+            write_vector(out, "velocity_m_s", row->point[i].motion.velocity, ", ");
+            write_vector(out, "inertia_N", report->inertia, ",\n          ");
         }
         const CpsPoint *point = &results->point[i];
         if (point->has_holding_capacity)
@@ -271,6 +307,12 @@ static void write_bodies(FILE *out, const CpsResults *results, const CpsiRow *ro
         write_wrench(out, "lines_N", "lines_Nm", report->lines);
         write_wrench(out, "load_N", "load_Nm", report->load);
         write_wrench(out, "support_N", "support_Nm", report->support);
+        if (results->in_time) {
+            write_wrench(out, "inertia_N", "inertia_Nm", report->inertia);
+            write_wrench(out, "damping_N", "damping_Nm", report->damping);
+            write_vector(out, "velocity_m_s", of->motion.velocity, ", ");
+            write_vector(out, "turn_rate_rad_s", of->motion.turn_rate, ",\n          ");
+        }
         if (report->proof_moment > 0) {
             fputs("\"proof\": {", out);
             write_vector(out, "axis", report->proof, ", ");
@@ -288,9 +330,10 @@ static void write_step(FILE *out, const CpsResults *results, const CpsiRow *row)
     write_string(out, "name", row->name, ", ");
     write_string(out, "outcome", cps_outcome_name(row->report.outcome), ", ");
     fprintf(out, "\"iterations\": %d,\n", row->report.iteration_count);
+    write_time(out, results, &row->motion);
     write_break(out, results, &row->parted);
     write_certificate(out, results, row);
-    write_ledger(out, &row->report, results->winds);
+    write_energy(out, results, row);
     write_number(out, "wall_s", row->report.wall, ",\n      \"lines\": {\n");
     for (int i = 0; i < cpsi_listed_lines(results); ++i)
         write_line(out, results->line_name[i], &row->line[i], results->lets_go,
@@ -352,7 +395,7 @@ static void write_largest_residuals(FILE *out, const CpsResults *results) {
         double largest = 0;
         int at = 0, without = 0;
         for (int r = 0; r < results->row_count; ++r) {
-            const CpsPointReport *report = &results->row[r].point[i];
+            const CpsPointReport *report = &results->row[r].point[i].report;
             const double residual = cpsi_point_residual(report);
             without += !report->has_place;
             if (isnan(largest) || residual <= largest) continue; /* a NaN is kept */
@@ -452,6 +495,19 @@ static void write_all_bodies(FILE *out, const CpsResults *results) {
     fputs("  },\n", out);
 }
 
+/* The sums of the entries of the energy balances over all steps of a history in time. */
+static void write_whole_ledger(FILE *out, const CpsResults *results) {
+    if (!results->in_time) return;
+    CpsLedger sum = {0};
+    CpsMotionLedger motion = {0};
+    for (int r = 0; r < results->row_count; ++r)
+        cps_ledgers_add(&results->row[r].report.ledger, &results->row[r].motion.of.ledger, &sum,
+                        &motion);
+    fputs("  ", out);
+    write_ledger(out, results, &sum, &motion);
+    fputs(",\n", out);
+}
+
 static void write_run(const CpsResults *results, double wall, FILE *out) {
     fputs("{\n  ", out);
     write_string(out, "capstan", cps_version(), ",\n  ");
@@ -463,6 +519,7 @@ static void write_run(const CpsResults *results, double wall, FILE *out) {
     for (int i = 0; i < cpsi_listed_lines(results); ++i)
         write_line_extremes(out, results, i, i + 1 < results->line_count ? ",\n" : "\n");
     fputs("  },\n", out);
+    write_whole_ledger(out, results);
     write_largest_residuals(out, results);
     write_all_bodies(out, results);
     fputs("  \"steps\": [", out);

@@ -322,14 +322,14 @@ static const CpsiKey SCENE_BODY_KEYS[] = {
     {"excitation", OPTIONAL, LIST(SceneBody, excitation, 1), .inside = &EXCITATION,
      .help = "force and moment of the scene's waves on it, by rows for periods and directions; "
              "linear in the frequency between them"},
+    {"radiation", OPTIONAL, TEXT(SceneBody, radiation, 255), ANY,
+     .help = "CSV file of times and the kernel of radiation, k11 .. k66, beside this file"},
     {"members", OPTIONAL, LIST(SceneBody, members, 1), .inside = &cpsi_member_keys,
-     .help = "straight cylinders on which the water acts by Morison's formula up to the surface: "
-             "drag of the current, in time also the motion of the body and the waves"},
+     .help = "cylinders on which the water acts by Morison's formula up to the surface"},
     {"velocity", OPTIONAL, POINT(SceneBody, velocity, 3), ANY, .unit = "m/s", .with = "free",
      .fallback = "[0, 0, 0]", .help = "of its reference point as the history begins"},
     {"turn_rate", OPTIONAL, POINT(SceneBody, turn_rate, 3), ANY, .unit = "rad/s", .with = "free",
-     .fallback = "[0, 0, 0]",
-     .help = "its rate of rotation as the history begins, in the axes of the scene"},
+     .fallback = "[0, 0, 0]", .help = "its rate of rotation then, in the axes of the scene"},
 };
 
 static void begin_scene_body(void *values) {

@@ -88,6 +88,7 @@ typedef struct CpsiSceneBodyValues {
     CpsiNumberRows added_mass, damping, quadratic; /* (6, 6) .. or these */
     CpsiList excitation;                           /* CpsiExcitationValues */
     CpsiList members;                              /* CpsiMemberValues */
+    const char *radiation;                         /* file of a table; NULL: none */
     CpsiDiagonalValues added_diagonal, damping_diagonal, quadratic_diagonal;
     double moments[3], products[3];   /* [kg m2] */
     double velocity[3], turn_rate[3]; /* [m/s], [rad/s] */

@@ -231,7 +231,7 @@ static void draw_axes(const Pen *pen, const CpsResults *results, const CpsiSnaps
 static void draw_points(const Pen *pen, const CpsResults *results, const CpsiSnapshot *snapshot) {
     const CpsiRow *row = &results->row[snapshot->step];
     for (int i = 0; i < results->point_count; ++i) {
-        const CpsPointReport *report = &row->point[i];
+        const CpsPointReport *report = &row->point[i].report;
         draw_meeting_point(pen, results, i, report->position,
                            report->state == CPS_POINT_STATE_HELD      ? "#222"
                            : report->state == CPS_POINT_STATE_ON_BODY ? COLOUR_BODY
@@ -425,7 +425,7 @@ static void draw_points_of_steps(const Pen *pen, const CpsResults *results, int 
         const CpsiRow *row = &results->row[results->snapshot[s].step];
         for (int i = 0; i < results->point_count; ++i)
             if (is_of(results, row, line, i))
-                draw_meeting_point(pen, results, i, row->point[i].position,
+                draw_meeting_point(pen, results, i, row->point[i].report.position,
                                    cpsi_step_colour(results, s).hex, 3, 0.6,
                                    last && (line >= 0 || results->point_count <= NAMED_POINTS));
     }

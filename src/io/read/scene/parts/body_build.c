@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rigid bodies: from the values of a scene file to the scene's structs (see body_build.h). */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/math.h"
@@ -124,6 +125,50 @@ static CpsStatus build_excitation(const CpsiMaterials *m, const CpsiList *rows, 
     return CPS_OK;
 }
 
+/* A kernel is symmetric where one of two entries is given. */
+static CpsStatus build_radiation(const CpsiMaterials *m, const CpsiSceneBodyValues *values,
+                                 CpsBody *body) {
+    enum { SIX = CPS_BODY_DIRECTIONS, COLUMNS = 1 + SIX * SIX, LONGEST = 4 };
+    CpsiCsvColumn column[COLUMNS] = {{"time", "s", CPSI_CSV_REQUIRED}};
+    char name[COLUMNS][LONGEST];
+    CpsiCsvTable table;
+    const char *path;
+    const CpsiYaml *node = cpsi_yaml_child(values->node, "radiation");
+    for (int i = 0; i < SIX; i++)
+        for (int k = 0; k < SIX; k++) {
+            const int c = 1 + SIX * i + k;
+            snprintf(name[c], LONGEST, "k%d%d", i + 1, k + 1);
+            column[c] = (CpsiCsvColumn){name[c],
+                                        i < 3 && k < 3   ? "N/m"
+                                        : i < 3 || k < 3 ? "N"
+                                                         : "N m",
+                                        CPSI_CSV_OPTIONAL};
+        }
+    const CpsStatus status =
+        cpsi_document_table(m->d, node, values->radiation, column, COLUMNS, m->pool, &table, &path);
+    if (status != CPS_OK) return status;
+    CpsRadiation *row = CPSI_POOL_TAKE(m->pool, table.rows, CpsRadiation);
+    if (!row) return cpsi_document_no_memory(m->d);
+    bool any = false;
+    for (int c = 1; c < COLUMNS; c++) any = any || table.has[c];
+    if (!any || table.rows < 2)
+        return cpsi_fail_at(m->d->err, CPS_ERR_INPUT, path, 0, 0,
+                            any ? "found one row, expected at least two"
+                                : "found times alone, expected a column beside them");
+    for (int r = 0; r < table.rows; r++) {
+        const double *value = &table.value[COLUMNS * r];
+        row[r].time = value[0];
+        for (int i = 0; i < SIX; i++)
+            for (int k = 0; k < SIX; k++) {
+                const bool has = table.has[1 + SIX * i + k];
+                row[r].kernel[SIX * i + k] = value[1 + (has ? SIX * i + k : SIX * k + i)];
+            }
+    }
+    body->radiation = row;
+    body->radiation_count = table.rows;
+    return CPS_OK;
+}
+
 static CpsStatus build_members(const CpsiMaterials *m, const CpsiList *members, CpsBody *body) {
     const CpsiMemberValues *values = members->item;
     CpsMember *member = CPSI_POOL_TAKE(m->pool, members->count, CpsMember);
@@ -150,6 +195,10 @@ static CpsStatus build_body(const CpsiMaterials *m, const CpsiSceneBodyValues *v
     build_motion(m, values, body);
     if (values->members.count > 0) {
         const CpsStatus built = build_members(m, &values->members, body);
+        if (built != CPS_OK) return built;
+    }
+    if (values->radiation) {
+        const CpsStatus built = build_radiation(m, values, body);
         if (built != CPS_OK) return built;
     }
     return values->excitation.count > 0 ? build_excitation(m, &values->excitation, body) : CPS_OK;

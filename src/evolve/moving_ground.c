@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Obstacles that move under points in time (moving_ground.h). */
+#include "evolve/moving_ground.h"
+
+#include <math.h>
+
+#include "cable/contact.h"
+
+/* Rounding of a quarter of a turn, and of that part of a radius. */
+static const double ROUNDING = 1e-6;
+
+static bool moves(const CpsEvolution *evolution, int k) {
+    return evolution->angle[k] != 0 || !cpsi_shift_is_none(&evolution->shift[k]);
+}
+
+bool cpsi_ground_moves(const CpsEvolution *evolution) {
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        if (moves(evolution, k)) return true;
+    return false;
+}
+
+/* The share of the step for which the ground carries the reference of a point along. */
+static double share_of(const CpsEvolution *evolution, const CpsiPoint *point) {
+    return evolution->interval > 0 ? point->inertia.span / evolution->formula.length : 1;
+}
+
+/* How obstacle k is shifted in that share. */
+static CpsiShift shift_of(const CpsEvolution *evolution, int k, double share) {
+    return share < 1 ? cpsi_shift_part(&evolution->shift[k], 1 - share, 1) : evolution->shift[k];
+}
+
+Vec3 cpsi_ground_carry(const CpsEvolution *evolution, const CpsiPoint *point, int k) {
+    const double share = share_of(evolution, point);
+    const CpsiShift shift = shift_of(evolution, k, share);
+    const double *from = evolution->interval > 0 ? point->inertia.reference : point->before;
+    return cpsi_obstacle_carry(&evolution->obstacle[k], vec3_load(from), &shift,
+                               share * evolution->angle[k]);
+}
+
+Vec3 cpsi_ground_way(const CpsEvolution *evolution, const CpsiPoint *point) {
+    const int k = point->report.obstacle;
+    if (k < 0 || !moves(evolution, k)) return vec3(0, 0, 0);
+    const double share = share_of(evolution, point);
+    const CpsiShift shift = shift_of(evolution, k, share);
+    const Vec3 x = vec3_load(point->report.position),
+               before =
+                   cpsi_obstacle_turn(&evolution->obstacle[k], x, -share * evolution->angle[k]),
+               way = vec3_add(vec3_sub(x, before), cpsi_shift_to(&shift, before));
+    return vec3_scale(1 / share, way);
+}
+
+double cpsi_ground_rate(const CpsEvolution *evolution, const CpsiPoint *point) {
+    const int k = point->report.obstacle;
+    if (k < 0 || cpsi_shift_is_none(&evolution->shift[k])) return 0;
+    const CpsiShift shift = shift_of(evolution, k, share_of(evolution, point));
+    const Vec3 way = cpsi_shift_to(&shift, vec3_load(point->report.position));
+    return vec3_dot(way, vec3_load(point->report.normal)) / point->inertia.span;
+}
+
+/* May obstacle k have gone past the point? */
+static bool passes(const CpsEvolution *evolution, const CpsiPoint *point, int k) {
+    const CpsiObstacle *on = &evolution->obstacle[k];
+    const CpsiShift *shift = &evolution->shift[k];
+    if (on->kind == CPS_OBSTACLE_PLANE || cpsi_shift_is_none(shift)) return false;
+    const Vec3 x = vec3_load(point->report.position);
+    const double size = vec3_norm(cpsi_shift_to(shift, x)),
+                 way = vec3_norm(vec3_sub(x, vec3_load(point->before)));
+    return size > CPSI_MOST_SHIFT * on->radius * (1 + ROUNDING) &&
+           cpsi_obstacle_gap(on, x) <= size + way;
+}
+
+bool cpsi_ground_outruns(const CpsEvolution *evolution, const CpsiPoint *point, Vec3 start) {
+    const double most = CPSI_QUARTER * (1 + ROUNDING);
+    if (!(evolution->interval > 0)) return false;
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        if (fabs(evolution->angle[k]) + vec3_norm(evolution->shift[k].turn) > most ||
+            passes(evolution, point, k))
+            return true;
+    if (point->report.obstacle == CPS_NO_OBSTACLE) return false;
+    const CpsiObstacle *on = &evolution->obstacle[point->report.obstacle];
+    const double angle =
+        cpsi_obstacle_angle(on, cpsi_obstacle_normal(on, start), vec3_load(point->report.normal));
+    return on->friction[0] > 0 && !(fabs(angle) <= most);
+}
