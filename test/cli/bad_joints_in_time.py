@@ -52,7 +52,7 @@ ACCEPTED = [
     ([(ADDED, matrix(e00=200, e22=100, e04=5, e40=5, e44=50))], "history: 1 entry"),
     ([(DAMPING, matrix(e00=5, e01=3, e10=-3))], "history: 1 entry"),
     ([("mass: 500", "weight: 5000")], "history: 1 entry"),
-    ([("friction: 0.5}, drum", "friction: 0.5, stiffness: 1e4, damping: 100}, drum")], "history: 1 entry, 20 load steps in all\n"),
+    ([("friction: 0.5}, drum", "friction: 0.5, stiffness: 1e4, damping: 100}, drum")], "history: 1 entry"),
     ([("duration: 2, time_step: 0.1", "steps: 2")], "history: 1 entry, 2 load steps in all\n"),
     ([("time_step: 0.1", "time_step: 0.1, drum.turn: 10, bed.obstacle: {move: [1, 0, 0]}")], "history: 1 entry, 20 load steps in all, 2 s in time"),
     ([("    free: [0, 0, 0]\n", "    held: [0, 0, 0]\n"), ("    velocity: [1, 0, 0]\n    turn_rate: [0, 0, 1]\n", ""), ("    mass: 500\n", "    mass: 0\n")], "history: 1 entry"),
