@@ -66,6 +66,9 @@ void check_print_body_motion(const CpsScene *scene, int body) {
     if (of->excitation_count > 0)
         printf("  excitation by waves in %d row%s\n", of->excitation_count,
                of->excitation_count == 1 ? "" : "s");
+    if (of->radiation_count > 0)
+        printf("  memory of radiation over %g s in %d rows\n",
+               of->radiation[of->radiation_count - 1].time, of->radiation_count);
     if (of->member_count > 0)
         printf("  %d member%s, whose added mass is in the one above\n", of->member_count,
                of->member_count == 1 ? "" : "s");

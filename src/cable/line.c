@@ -65,7 +65,8 @@ void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
         if (line->has_inertia) {
             CPSI_PLACE(arena, line->field.added, 3 * n);
             CPSI_PLACE(arena, line->field.wave, 3 * n);
-            CPSI_PLACE(arena, line->field.seen, n);
+            CPSI_PLACE(arena, line->field.seen, (n + CPSI_LANES - 1) / CPSI_LANES);
+            line->field.see = cpsi_water_loop(cpsi_width_once(&arena->width));
         }
         cpsi_anderson_layout(&line->field.rounds, arena, line->n);
     }

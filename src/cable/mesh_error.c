@@ -74,12 +74,13 @@ static bool add_element(const CpsiLine *line, int e, Vec3 q, Span *span) {
     const double l = line->natural_length[e], tension = vec3_norm(p), /* l c: that of its rest */
         c = cpsi_law_compliance(&law, tension) * (line->element_length[e] / l);
     if (!(tension > l * vec3_norm(q)) || !(tension > 0)) return false;
-    const Vec3 t = vec3_scale(1 / tension, p);
+    const double over = 1 / tension;
+    const Vec3 t = vec3_scale(over, p);
     const double along = vec3_dot(q, t);
     const Vec3 across = vec3_axpy(-along, t, q);
     const Vec3 chord = vec3_axpy(2 * along, across, vec3_scale(vec3_dot(across, across), t));
-    span->defect = vec3_axpy(l * l * l / (24 * tension * tension), chord, span->defect);
-    add_compliance(span->compliance, t, l * c, l * (1 / tension + c));
+    span->defect = vec3_axpy(l * l * l / 24 * over * over, chord, span->defect);
+    add_compliance(span->compliance, t, l * c, l * (over + c));
     return true;
 }
 

@@ -28,7 +28,6 @@
 #include "cable/flow.h"
 #include "cable/held.h"
 #include "cable/inertia_field.h"
-#include "chain/halves.h"
 #include "linalg/symmetric.h"
 
 /* Programs whose change is not below this share of the change before are accelerated. */
@@ -40,126 +39,120 @@ static inline Vec3 velocity_of(const CpsiLine *line, const double *x, int j) {
                       vec3_sub(vec3_at(x, j), vec3_at(line->reference, j)));
 }
 
-/* What acts on the two nodes of an element, side by side; the rest is the same for both. */
-typedef struct OfElement {
-    CpsiHalves drag[3], slope[6];
-    double mass[6], wave[3];
-} OfElement;
-
-/* Half an element: its direction, and the drag across and along per velocity squared. */
-typedef struct HalfElement {
-    CpsiHalves t[3];
-    double across, along; /* [kg/m] */
-} HalfElement;
-
-/* m = a I + b s s' + c t t', a symmetric matrix as K of the field. */
-CPSI_HALVES_FUNCTION void set_slope(CpsiHalves m[6], CpsiHalves a, CpsiHalves b,
-                                    const CpsiHalves s[3], CpsiHalves c, const CpsiHalves t[3]) {
-    static const int ROW[6] = {0, 1, 1, 2, 2, 2}, COLUMN[6] = {0, 0, 1, 0, 1, 2};
-    CpsiHalves bs[3], ct[3];
-    for (int i = 0; i < 3; i++) {
-        bs[i] = b * s[i];
-        ct[i] = c * t[i];
-    }
-    for (int i = 0; i < 6; i++) m[i] = bs[ROW[i]] * s[COLUMN[i]] + ct[ROW[i]] * t[COLUMN[i]];
-    m[0] += a;
-    m[2] += a;
-    m[5] += a;
+static inline void put(CpsiLane to[3], int l, Vec3 v) {
+    to[0][l] = v.x;
+    to[1][l] = v.y;
+    to[2][l] = v.z;
 }
 
-/* The drag of half an element on its nodes, which the water passes with w. */
-CPSI_HALVES_FUNCTION void set_drag(const HalfElement *half, const CpsiHalves w[3], OfElement *out) {
-    const CpsiHalves none = {0, 0}, way = cpsi_halves_dot(w, half->t);
-    CpsiHalves across[3];
-    for (int i = 0; i < 3; i++) across[i] = w[i] - way * half->t[i];
-    const CpsiHalves square = cpsi_halves_dot(across, across),
-                     fast = {sqrt(square[0]), sqrt(square[1])}, normal = half->across * fast,
-                     tangential = half->along * cpsi_halves_abs(way), along = tangential * way,
-                     over = cpsi_halves_choose(fast > none, half->across / fast, none);
-    for (int i = 0; i < 3; i++) out->drag[i] = along * half->t[i] + normal * across[i];
-    set_slope(out->slope, normal, over, across, 2 * tangential - normal, half->t);
+static inline Vec3 take(const CpsiLane from[3], int l) {
+    return vec3(from[0][l], from[1][l], from[2][l]);
 }
 
-/* The water at element e of the line at the places x, whose nodes have the velocities v. */
-static inline void see_element(const CpsiLine *line, const double *x, int e, const Vec3 v[2],
-                               OfElement *out) {
-    const CpsiFlow *flow = line->field.flow;
-    const CpsDrag *by = &flow->drag;
+/* What element e is like: where there is none, nothing. */
+typedef struct Element {
+    Vec3 t;
+    CpsiWaterMotion water;
+    double half; /* [m] of its length */
+} Element;
+
+static inline Element element_of(const CpsiLine *line, const double *x, int e) {
+    if (e + 1 >= line->n) return (Element){.half = 0};
     const Vec3 from = vec3_at(x, e), to = vec3_at(x, e + 1), d = vec3_sub(to, from);
-    const double size = vec3_norm(d), length = 0.5 * line->natural_length[e] * flow->density,
-                 pressed = length * 0.5 * by->diameter,
-                 moved = length * 0.25 * CPSI_PI * by->diameter * by->diameter,
-                 across = moved * by->added_normal, along = moved * by->added_tangential;
-    const Vec3 t = vec3_scale(size > 0 ? 1 / size : 0, d);
-    const CpsiWaterMotion water = cpsi_flow_motion(flow, vec3_scale(0.5, vec3_add(from, to)));
-    const Vec3 w[2] = {vec3_sub(water.velocity, v[0]), vec3_sub(water.velocity, v[1])};
-    const HalfElement half = {{{t.x, t.x}, {t.y, t.y}, {t.z, t.z}},
-                              pressed * by->normal,
-                              pressed * CPSI_PI * by->tangential};
-    const CpsiHalves passes[3] = {{w[0].x, w[1].x}, {w[0].y, w[1].y}, {w[0].z, w[1].z}};
-    set_drag(&half, passes, out);
-    const Vec3 more = vec3_scale(along - across, t);
-    const double mass[6] = {across + more.x * t.x, more.x * t.y, across + more.y * t.y,
-                            more.x * t.z,          more.y * t.z, across + more.z * t.z};
-    memcpy(out->mass, mass, sizeof mass);
-    if (!flow->waves && !flow->given) return;
-    const Vec3 b = water.acceleration;
-    vec3_store(out->wave, vec3_axpy(moved, b, cpsi_node_field_product(mass, b)));
+    const double size = vec3_norm(d);
+    return (Element){vec3_scale(size > 0 ? 1 / size : 0, d),
+                     cpsi_flow_motion(line->field.flow, vec3_scale(0.5, vec3_add(from, to))),
+                     0.5 * line->natural_length[e]};
+}
+
+static inline void put_half(CpsiHalfElements *half, int l, const Element *element,
+                            bool accelerated) {
+    put(half->t, l, element->t);
+    put(half->velocity, l, element->water.velocity);
+    if (accelerated) put(half->acceleration, l, element->water.acceleration);
+    half->length[l] = element->half;
+}
+
+static CpsiWaterShare share_of(const CpsiFlow *flow) {
+    const CpsDrag *by = &flow->drag;
+    const double pressed = 0.5 * flow->density * by->diameter,
+                 displaced = 0.25 * CPSI_PI * flow->density * by->diameter * by->diameter;
+    return (CpsiWaterShare){.across = pressed * by->normal,
+                            .along = pressed * CPSI_PI * by->tangential,
+                            .moved_across = displaced * by->added_normal,
+                            .moved_along = displaced * by->added_tangential,
+                            .displaced = displaced,
+                            .is_accelerated = flow->waves || flow->given};
 }
 
 /* See what the water does to the line at the places x. */
 static void see_water(const CpsiLine *line, const double *x) {
-    OfElement of[2] = {0};
-    Vec3 v[2] = {velocity_of(line, x, 0)};
-    for (int j = 0; j < line->n; j++) {
-        const OfElement *before = &of[(j + 1) % 2], *after = &of[j % 2];
-        CpsiWaterForces *seen = &line->field.seen[j];
-        if (j + 1 < line->n) {
-            v[1] = velocity_of(line, x, j + 1);
-            see_element(line, x, j, v, &of[j % 2]);
-            v[0] = v[1];
-        } else {
-            of[j % 2] = (OfElement){0};
+    const CpsiWaterShare share = share_of(line->field.flow);
+    CpsiNodesInWater nodes = {.velocity = {{0}}};
+    Element before = {.half = 0};
+    for (int first = 0; first < line->n; first += CPSI_LANES) {
+        const int count = cpsi_lanes_count(line->n - first);
+        for (int l = 0; l < count; l++) {
+            const Element behind = element_of(line, x, first + l);
+            put(nodes.velocity, l, velocity_of(line, x, first + l));
+            put_half(&nodes.half[0], l, &before, share.is_accelerated);
+            put_half(&nodes.half[1], l, &behind, share.is_accelerated);
+            before = behind;
         }
-        for (int i = 0; i < 3; i++) {
-            seen->drag[i] = before->drag[i][1] + after->drag[i][0];
-            seen->wave[i] = before->wave[i] + after->wave[i];
-        }
-        for (int i = 0; i < 6; i++) {
-            seen->slope[i] = before->slope[i][1] + after->slope[i][0];
-            seen->mass[i] = before->mass[i] + after->mass[i];
-        }
+        line->field.see(&nodes, &share, &line->field.seen[first / CPSI_LANES]);
     }
 }
 
-/* The force of the water that is moved along, at the place x, where it was seen. */
-static Vec3 added_force(const CpsiLine *line, const double *x, int j) {
-    const Vec3 faster = vec3_sub(velocity_of(line, x, j), vec3_at(line->inertia.rest_velocity, j));
-    return vec3_scale(-1 / line->inertia.span[j],
-                      cpsi_node_field_product(line->field.seen[j].mass, faster));
+/* What was seen at one node. */
+typedef struct NodeInWater {
+    Vec3 drag, wave;
+    double mass[6];
+} NodeInWater;
+
+static inline NodeInWater seen_at(const CpsiLine *line, int j) {
+    const CpsiWaterForces *of = &line->field.seen[j / CPSI_LANES];
+    const int l = j % CPSI_LANES;
+    NodeInWater out = {take(of->drag, l), take(of->wave, l), {0}};
+    for (int i = 0; i < 6; i++) out.mass[i] = of->mass[i][l];
+    return out;
 }
 
-/* Write the field of inertia and water, which was seen there, about y at node j; returns the size
- * of its forces. */
-static double write_node(CpsiLine *line, const double *y, int j) {
+/* The force of the water that is moved along on node j, which is faster than v* by `faster`. */
+static inline Vec3 added_force(const NodeInWater *seen, double rate, Vec3 faster) {
+    return vec3_scale(-rate, cpsi_node_field_product(seen->mass, faster));
+}
+
+/* Write the field of inertia and water, which was seen there, about y at node j. */
+static void write_node(CpsiLine *line, const double *y, int j) {
     const double rate = 1 / line->inertia.span[j];
-    const double own = cpsi_line_set_inertia(line, j, vec3_at(line->reference, j));
-    const CpsiWaterForces *water = &line->field.seen[j];
-    const Vec3 drag = vec3_load(water->drag), wave = vec3_load(water->wave);
-    double *k = &line->field.stiffness[6 * j], *place = &line->field.place[3 * j], by[3];
+    const NodeInWater seen = seen_at(line, j);
+    const CpsiWaterForces *of = &line->field.seen[j / CPSI_LANES];
+    double *k = &line->field.stiffness[6 * j], *place = &line->field.place[3 * j], slope[6], by[3];
+    (void)cpsi_line_set_inertia(line, j, vec3_at(line->reference, j));
     const Vec3 off = vec3_sub(vec3_at(y, j), vec3_load(place));
-    vec3_store(by,
-               vec3_axpy(rate, cpsi_node_field_product(water->slope, off), vec3_add(drag, wave)));
-    for (int i = 0; i < 6; i++) k[i] += rate * (water->slope[i] + rate * water->mass[i]);
+    for (int i = 0; i < 6; i++) {
+        slope[i] = of->slope[i][j % CPSI_LANES];
+        k[i] += rate * (slope[i] + rate * seen.mass[i]);
+    }
+    vec3_store(by, vec3_axpy(rate, cpsi_node_field_product(slope, off),
+                             vec3_add(seen.drag, seen.wave)));
     if (cpsi_symmetric_solve(k, by))
         for (int a = 0; a < 3; a++) place[a] += by[a];
-    return own + vec3_norm(drag) + vec3_norm(wave);
 }
 
 /* Write the field about the places y, where the water was seen. */
 static void write(CpsiLine *line, const double *y) {
-    line->field.size = 0;
-    for (int j = 0; j < line->n; j++) line->field.size += write_node(line, y, j);
+    for (int j = 0; j < line->n; j++) write_node(line, y, j);
+}
+
+/* The size of the forces of inertia and water on node j. */
+static double size_at(const CpsiLine *line, int j) {
+    const CpsiInertia *inertia = &line->inertia;
+    const NodeInWater seen = seen_at(line, j);
+    const Vec3 change =
+        vec3_sub(vec3_at(inertia->rest_velocity, j), vec3_at(inertia->start_velocity, j));
+    return inertia->mass[j] / inertia->span[j] * vec3_norm(change) + vec3_norm(seen.drag) +
+           vec3_norm(seen.wave);
 }
 
 void cpsi_line_begin_swim(CpsiLine *line) {
@@ -173,6 +166,8 @@ void cpsi_line_begin_swim(CpsiLine *line) {
     cpsi_line_put_held(line, place);
     see_water(line, place);
     write(line, place);
+    line->field.size = 0;
+    for (int j = 0; j < line->n; j++) line->field.size += size_at(line, j);
     line->field.rounds.begun = false;
     line->field.rounds.count = 0;
     line->field.left = INFINITY;
@@ -182,14 +177,12 @@ double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
     double changed = 0, most = 0;
     see_water(line, line->position);
     for (int j = 0; j < line->n; j++) {
-        const CpsiWaterForces *water = &line->field.seen[j];
+        const NodeInWater seen = seen_at(line, j);
         const double rate = 1 / line->inertia.span[j];
         const Vec3 x = vec3_at(line->position, j),
                    v = vec3_scale(rate, vec3_sub(x, vec3_at(line->reference, j))),
                    faster = vec3_sub(v, vec3_at(line->inertia.rest_velocity, j)),
-                   moved = cpsi_node_field_product(water->mass, faster),
-                   seen = vec3_add(vec3_load(water->drag), vec3_load(water->wave)),
-                   now = vec3_axpy(-rate, moved, seen),
+                   now = vec3_add(vec3_add(seen.drag, seen.wave), added_force(&seen, rate, faster)),
                    used = vec3_axpy(rate * line->inertia.mass[j], faster,
                                     cpsi_line_field_force(line, j, x));
         changed += vec3_norm(vec3_sub(now, used));
@@ -216,10 +209,13 @@ void cpsi_line_end_swim(CpsiLine *line, double left) {
     const double *x = line->position;
     line->field.left = left;
     for (int j = 0; j < line->n; j++) {
-        const CpsiWaterForces *water = &line->field.seen[j];
-        memcpy(&line->field.drag[3 * j], water->drag, sizeof water->drag);
-        vec3_store(&line->field.added[3 * j], added_force(line, x, j));
-        memcpy(&line->field.wave[3 * j], water->wave, sizeof water->wave);
+        const NodeInWater seen = seen_at(line, j);
+        const Vec3 faster =
+            vec3_sub(velocity_of(line, x, j), vec3_at(line->inertia.rest_velocity, j));
+        vec3_store(&line->field.drag[3 * j], seen.drag);
+        vec3_store(&line->field.added[3 * j],
+                   added_force(&seen, 1 / line->inertia.span[j], faster));
+        vec3_store(&line->field.wave[3 * j], seen.wave);
         (void)cpsi_line_set_inertia(line, j, vec3_at(line->reference, j));
     }
 }

@@ -11,6 +11,7 @@
 
 #include "base/vec3.h"
 #include "cable/anderson.h"
+#include "cable/water_lanes.h"
 #include "cable/waves.h"
 #include "capstan/loads.h"
 
@@ -37,14 +38,6 @@ typedef struct CpsiPotential {
     CpsPotential given;
     double origin[3]; /* [m] of line->position, in the axes of the scene */
 } CpsiPotential;
-
-/* What the water does to a node of a line that moves. */
-typedef struct CpsiWaterForces {
-    double drag[3];  /* [N] */
-    double slope[6]; /* [N s/m] C, what the drag loses with the velocity, as K below */
-    double mass[6];  /* [kg] A, of the water that is moved along */
-    double wave[3];  /* [N] of the water's own acceleration */
-} CpsiWaterForces;
 
 typedef struct CpsiNodeField {
     double *load; /* (n, 3) [N] a load of each node; NULL: none */
@@ -75,7 +68,10 @@ typedef struct CpsiNodeField {
     /* of a step in time (moving_flow.h): */
     double *added; /* (n, 3) [N] of the water that is moved along; NULL without inertia or loads */
     double *wave;  /* (n, 3) [N] of the water's own acceleration; likewise */
-    CpsiWaterForces *seen; /* (n) of the water where the line was last seen; likewise */
+    /* (n, eight at a time) of the water where the line was last seen, and how that is found;
+     * likewise */
+    CpsiWaterForces *seen;
+    CpsiWaterLoop *see;
     double left; /* [N] sum over the nodes of what the last program lacked of the flow's forces */
 } CpsiNodeField;
 

@@ -20,7 +20,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "base/larger.h"
+#include "base/lanes.h"
 #include "chain/newton.h"
 
 /* More linear systems than this take longer than the interior-point loop. */
@@ -61,6 +61,11 @@ static double press(CpsiChainProgram *program) {
     return most;
 }
 
+/* The largest |v|; NaN if any is. */
+static inline double largest_of(const double v[3]) {
+    return cpsi_max_nan(cpsi_max_nan(fabs(v[0]), fabs(v[1])), fabs(v[2]));
+}
+
 /* The force of each element, the error of its law, |e| - 1 - phi(T), and the force g on each node.
  */
 static void measure(CpsiNewton *newton) {
@@ -89,10 +94,8 @@ static void measure(CpsiNewton *newton) {
     for (int j = 0; program->field && j < program->n; j++) {
         double pull[3];
         cpsi_field_pull(program, j, pull);
-        for (int a = 0; a < 3; a++) {
-            g[3 * j + a] -= pull[a];
-            most = cpsi_max_nan(most, fabs(pull[a]));
-        }
+        for (int a = 0; a < 3; a++) g[3 * j + a] -= pull[a];
+        most = cpsi_max_nan(most, largest_of(pull));
     }
     if (program->unilateral.compliance) most = cpsi_max_nan(most, press(program));
     if (newton->has_points) cpsi_newton_measure_points(newton);
@@ -102,13 +105,12 @@ static void measure(CpsiNewton *newton) {
 static void set_rounding(CpsiNewton *newton) {
     const CpsiChainProgram *program = newton->program;
     const double *factor = program->segment.compliance_factor;
-    double shortest = 1, farthest = 0, least = 1;
+    double shortest = 1, least = 1;
     for (int i = 1; i < program->n; i++) {
         if (program->segment.length[i] < shortest) shortest = program->segment.length[i];
         if (factor && factor[i - 1] < least) least = factor[i - 1];
     }
-    for (int a = 0; a < 3 * program->n; a++)
-        farthest = cpsi_max_nan(farthest, fabs(program->base.u[a]));
+    const double farthest = cpsi_lanes_size(3 * (size_t)program->n, program->base.u);
     newton->rounding = ROUNDINGS * DBL_EPSILON * (1 + farthest / shortest);
     newton->noise = COORDINATE_ROUNDINGS * DBL_EPSILON * (1 + 1 / shortest);
     /* ... and an elongation as a force */

@@ -186,7 +186,7 @@ static void load_places(CpsiNewton *newton) {
         if (status & CPSI_STICKS) diagonal[0] = diagonal[2] = status & CPSI_STOPS ? PULLING : RIGID;
         if (has_friction) f[0] = f[1] = 0;
         if (status & CPSI_CORNER) continue;
-        for (int a = 0; a < 3; a++) error = cpsi_max_nan(error, fabs(f[a]));
+        error = cpsi_max_nan(error, cpsi_max_nan(cpsi_max_nan(fabs(f[0]), fabs(f[1])), fabs(f[2])));
     }
     newton->force_error = error;
 }

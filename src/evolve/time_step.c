@@ -136,7 +136,7 @@ static bool find_rough(CpsiLine *line, double h) {
     CpsiInertia *inertia = &line->inertia;
     bool found = false;
     inertia->snatched = 0;
-    for (int j = 0; j < line->n; j++) {
+    for (int j = 0; cpsi_line_has_soft(line) && j < line->n; j++) {
         if (cpsi_line_is_held(line, j) || !cpsi_soft_is_crossed(line, j, h)) continue;
         found = found || !inertia->restarts[j];
         inertia->restarts[j] = true;

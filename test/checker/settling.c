@@ -77,14 +77,16 @@ void settling_check(const Source *source, const Record *r, const Record *before,
                     void *user) {
     if (!r->mass || !before || in_time(r)) return;
     const bool rests = r->settles;
-    const double had = rests ? before->time_entry[TIME_KINETIC] : 0;
+    /* a static start keeps the velocity with which the history begins, and has done no work in time
+     */
+    const double had = before->time_entry[TIME_KINETIC];
     compare("growth of the kinetic energy", r->time_entry[TIME_GROWTH], -had, 0, find, user);
     for (int k = TIME_IMPACT; k < TIME_ENTRIES; k++)
         if (k != TIME_SETTLING)
             compare("energy of a motion in a quasi-static step", r->time_entry[k], 0, 0, find,
                     user);
     compare("kinetic energy", r->time_entry[TIME_KINETIC], 0, 0, find, user);
-    if (!rests) compare("ledger_settling", r->time_entry[TIME_SETTLING], 0, 0, find, user);
+    if (!rests) compare("ledger_settling", r->time_entry[TIME_SETTLING], had, 0, find, user);
     if (!rests || r->substeps > 1 || r->grasps > 0 || r->outcome > OUTCOME_TAUT) return;
     double reach = 0;
     for (size_t j = 0; j < r->nodes; j++)

@@ -75,7 +75,7 @@ CHANGES = [
     ("a place of what is loaded", "load.csv", "time,fx,mz", "time,x,mz", INPUT, f"load.csv:1:6: found the column 'x', expected a line of names: {LOAD}"),
     ("a rotation of a point", "knot.csv", "time,x,y,z", "time,x,y,rz", INPUT, f"knot.csv:2:10: found the column 'rz', expected a line of names: {KNOT}"),
     ("a column twice", "hull.csv", "time,x,ry", "time,x,x", INPUT, "hull.csv:1:8: the column 'x' is given twice"),
-    ("another unit", "hull.csv", "s,m,deg", "s,ft,deg", INPUT, "hull.csv:2:1: time: found 's', expected a number in s"),
+    ("another unit", "hull.csv", "s,m,deg", "s,ft,deg", INPUT, "hull.csv:2:3: the unit of x: found 'ft', expected m, or numbers"),
     ("units again", "hull.csv", "1,0.2,3", "s,m,deg", INPUT, "hull.csv:4:1: time: found 's', expected a number in s"),
     ("a short row", "hull.csv", "1,0.2,3", "1,0.2", INPUT, "hull.csv:4:1: found 2 cells, expected 3 as in the line of names"),
     ("a long row", "hull.csv", "1,0.2,3", "1,0.2,3,4", INPUT, "hull.csv:4:1: found more than 3 cells, expected 3 as in the line of names"),

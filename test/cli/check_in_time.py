@@ -17,7 +17,7 @@ waves: {depth: 30, components: [{amplitude: 0.5, period: 8, direction: 0}, {ampl
 types: {chain: {mass: 20, stiffness: 1e6}, wire: {mass: 5, diameter: 0.02, stiffness: 1e6}}
 bodies:
   hull: {free: [0, 0, 0], mass: 500, moments_of_inertia: [10, 11, 12], products_of_inertia: [0.5, 0, 0], hydrostatics: {z: 1e4},
-         added_mass: {x: 7}, damping: {z: 30}, quadratic_damping: {rx: 4}, velocity: [0, 0, 0.5], turn_rate: [0, 0, 0.1],
+         added_mass: {x: 7}, damping: {z: 30}, radiation: kernel.csv, quadratic_damping: {rx: 4}, velocity: [0, 0, 0.5], turn_rate: [0, 0, 0.1],
          members: [{from: [0, 0, -4], to: [0, 0, 0], diameter: 1, normal: 1, added_normal: 1}],
          excitation: [{period: 3, direction: 0, amplitude: [1, 0, 0, 0, 0, 0], phase: [0, 0, 0, 0, 0, 0]},
                       {period: 8, direction: 0, amplitude: [1, 0, 0, 0, 0, 0], phase: [0, 0, 0, 0, 0, 0]}]}
@@ -40,7 +40,7 @@ COLUMN = 1000*math.pi/4*4
 SAID = ["water of 1000 kg/m3, current (0, 0, 0) m/s at z = -20 m, (0.5, 0, 0) m/s at z = 0 m",
         "  mass 500 kg, moments of inertia (10, 11, 12) kg m2, products (0.5, 0, 0) kg m2, velocity (0, 0, 0.5) m/s, turn rate (0, 0, 0.1) rad/s",
         f"  added mass        [{COLUMN + 7:g} 0 0 0 {-2*COLUMN:g} 0]", "  quadratic damping [0 0 0 0 0 0]", "[0 0 30 0 0 0]", "[0 0 0 4 0 0]",
-        "  excitation by waves in 2 rows", "  1 member, whose added mass is in the one above",
+        "  excitation by waves in 2 rows", "  memory of radiation over 4 s in 3 rows", "  1 member, whose added mass is in the one above",
         "point clump: free, begins at (6, 0, -12) m, clump of 294.3 N, force (0, 0, 0) N, moves with 30 kg, velocity (0.1, 0, 0) m/s",
         "  moves with 5 to 20 kg/m, internal damping 300 N s", "  drag on a diameter of 0.05 m: 1.2 across, 0.1 along; added mass 1 across, 0 along",
         "  moves without inertia", "history: 3 entries, 402 load steps in all, 50 s in time by euler, steps of 0.1 to 0.2 s"]
@@ -78,6 +78,8 @@ def main():
             assert done.returncode == 0, done.stderr
             return done
 
+        with open(os.path.join(folder, "kernel.csv"), "w", encoding="utf-8") as file:
+            file.write("time,k33\n0,50\n2,10\n4,0\n")
         done = ask(SCENE, "check")
         missing = [text for text in SAID if text not in done.stdout]
         assert not missing and not done.stderr, f"{missing} not in\n{done.stdout}{done.stderr}"

@@ -33,6 +33,15 @@ history:
 """
 
 
+# 7/8 of 2 m with 2 kg/m at 1 m/s: 1.75 J; the halves of the outer elements are held
+BEGINS = """capstan: 1
+lines:
+  rope: {{length: 2, elements: 8, mass: 2, stiffness: 1e5, velocity: [0, 1, 0], start: static, ends: {{A: {{held: [0, 0, 0]}}, B: {{held: [1.5, 0, 0]}}}}}}
+history:
+{entry}  - {{name: go, duration: 0.2, time_step: 0.02}}
+"""
+
+
 def forced(t, mass, stiffness, terms):
     """From rest: the response of a mass on a spring to the sum of S sin(w t) and C (1 - cos(w t)), by superposition."""
     w0, z = math.sqrt(stiffness/mass), 0
@@ -51,7 +60,7 @@ def allowed(size, mass, stiffness, h, t):
 def column(out, name, table="history.csv"):
     with open(os.path.join(out, table)) as file:
         rows = list(csv.DictReader(row for row in file if not row.startswith("#")))
-    return [float(row[name]) for row in rows if row[name] not in ("", "m", "N", "s")]
+    return [float(row[name]) for row in rows if row[name] not in ("", "m", "N", "s", "J")]
 
 
 def heave(capstan, checker, folder):
@@ -174,12 +183,22 @@ def bad(capstan, folder):
     print("oscillations: %d bad files refused" % len(BAD))
 
 
+def begins(capstan, checker, folder):
+    """A line that starts static has the velocity given as the history begins; a quasi-static entry takes its energy."""
+    for entry, kinetic in (("", [0.4375*4]), ("  - {name: hold}\n", [0.4375*4, 0])):
+        _, out, _ = solve(capstan, checker, folder, BEGINS.format(entry=entry))
+        found, settling = column(out, "kinetic"), column(out, "settling")
+        assert all(abs(a - b) <= 1e-12 for a, b in zip(found, kinetic)), found
+        assert abs(settling[1] - (kinetic[0] if entry else 0)) <= 1e-12, settling
+
+
 def main():
     capstan, checker = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         heave(capstan, checker, folder)
         held(capstan, checker, folder)
         knot(capstan, checker, folder)
+        begins(capstan, checker, folder)
         bad(capstan, folder)
 
 

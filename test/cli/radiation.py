@@ -101,6 +101,8 @@ def one_scene(capstan, checker, folder):
     text = SCENE.format(history="  - {name: pull, duration: 8, steps: 60, hull.body: {force: [900, 400, 0], moment: [50, 90, 0]}}\n"
                                 "  - {name: go, duration: 4, steps: 40}\n", **fill)
     scene, out, found = solve(capstan, checker, folder, text)
+    code, said = command(capstan, "check", scene)
+    assert code == 0 and "  memory of radiation over 10 s in 101 rows\n" in said, said
     for variable, index in (("load_of_body", 1), ("load_moment_of_body", 2), ("ledger_drag_of_body", 0), ("velocity_of_body", 0)):
         falsify(found, folder, variable, 50, index, 1e-3)
         code, _ = command(checker, os.path.join(folder, "copy.nc"), scene)

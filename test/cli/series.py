@@ -125,7 +125,7 @@ def sea(capstan, checker, folder):
     _, _, one = solve(capstan, checker, folder,
                       IN_WAVES % "components: [{amplitude: 0.5, period: 5, direction: 20, phase: 40}, {amplitude: 0.3, period: 4, direction: -100}]")
     for text in ("amplitude,period,direction,phase\n0.5,5,20,40\n0.3,4,-100,0\n",
-                 "phase, direction, frequency, amplitude\ndegree, degree, Hz, m\n40,20,0.2,0.5\n0,-100,0.25,0.3\n"):
+                 "phase, direction, frequency, amplitude\ndegree, deg, Hz, m\n40,20,0.2,0.5\n0,-100,0.25,0.3\n"):
         write(folder, "sea.csv", text)
         _, _, other = solve(capstan, checker, folder, IN_WAVES % "file: sea.csv")
         for name in ("rope_position", "rope_ledger_waves"):

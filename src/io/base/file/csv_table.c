@@ -84,17 +84,36 @@ static CpsStatus read_names(TableReader *r, char *text) {
     return CPS_OK;
 }
 
-static bool are_units(const TableReader *r, char *const *cell, int count) {
-    bool units = count == r->columns;
-    for (int k = 0; k < count && units; k++)
-        units = strcmp(cell[k], r->column[r->meaning[k]].unit) == 0;
-    return units;
+/* "deg" and "degree" are one unit, which tables of results have in both ways. */
+static bool is_unit(const char *text, const char *unit) {
+    static const char DEGREE[] = "deg";
+    if (strncmp(unit, DEGREE, strlen(DEGREE)) != 0) return strcmp(text, unit) == 0;
+    return strcmp(text, DEGREE) == 0 || strcmp(text, "degree") == 0 || strcmp(text, "degrees") == 0;
+}
+
+/* Words below the names are units, and then those of the columns. */
+static CpsStatus read_units(const TableReader *r, char *const *cell, int count, const char *text,
+                            bool *units) {
+    double x;
+    *units = count == r->columns;
+    for (int k = 0; k < count && *units; k++)
+        *units = *cell[k] != '\0' && !cpsi_yaml_number(cell[k], &x);
+    for (int k = 0; k < count && *units; k++) {
+        const CpsiCsvColumn *column = &r->column[r->meaning[k]];
+        if (!is_unit(cell[k], column->unit))
+            return cpsi_fail_at(r->err, CPS_ERR_INPUT, r->path, r->line, (int)(cell[k] - text) + 1,
+                                "the unit of %s: found '%.40s', expected %s, or numbers",
+                                column->name, cell[k], column->unit);
+    }
+    return CPS_OK;
 }
 
 static CpsStatus read_row(TableReader *r, char *text) {
     char *cell[CPSI_CSV_COLUMNS];
     const int count = cut(text, cell, r->columns), row = r->table.rows;
-    if (row == 0 && are_units(r, cell, count)) return CPS_OK;
+    bool units = false;
+    const CpsStatus status = row == 0 ? read_units(r, cell, count, text, &units) : CPS_OK;
+    if (status || units) return status;
     if (count != r->columns)
         return cpsi_fail_at(r->err, CPS_ERR_INPUT, r->path, r->line, 1,
                             "found %s%d cells, expected %d as in the line of names",
