@@ -29,8 +29,25 @@ static CpsiShift shift_of(const CpsEvolution *evolution, int k, double share) {
     return share < 1 ? cpsi_shift_part(&evolution->shift[k], 1 - share, 1) : evolution->shift[k];
 }
 
+/* Both places of the formula of the second order, taken along to the end of the step by ground that
+ * turns: that of a point which goes with it is where it is, while x* lies outside of its circle. */
+static Vec3 carry_both(const CpsEvolution *evolution, const CpsiPoint *point, int k) {
+    const CpsiObstacle *on = &evolution->obstacle[k];
+    const double longer = 1 + 1 / evolution->formula.ratio, angle = evolution->angle[k];
+    const CpsiShift shift = evolution->shift[k], both = cpsi_shift_part(&shift, 1 - longer, 1);
+    const Vec3 last = cpsi_obstacle_carry(on, vec3_load(point->before), &shift, angle),
+               first =
+                   cpsi_obstacle_carry(on, vec3_load(point->inertia.before), &both, longer * angle);
+    return vec3_axpy(evolution->formula.back, vec3_sub(last, first), last);
+}
+
+static bool turns(const CpsEvolution *evolution, int k) {
+    return evolution->angle[k] != 0 || !cpsi_vec3_is_zero(evolution->shift[k].turn);
+}
+
 Vec3 cpsi_ground_carry(const CpsEvolution *evolution, const CpsiPoint *point, int k) {
     const double share = share_of(evolution, point);
+    if (share < 1 && turns(evolution, k)) return carry_both(evolution, point, k);
     const CpsiShift shift = shift_of(evolution, k, share);
     const double *from = evolution->interval > 0 ? point->inertia.reference : point->before;
     return cpsi_obstacle_carry(&evolution->obstacle[k], vec3_load(from), &shift,
@@ -40,13 +57,9 @@ Vec3 cpsi_ground_carry(const CpsEvolution *evolution, const CpsiPoint *point, in
 Vec3 cpsi_ground_way(const CpsEvolution *evolution, const CpsiPoint *point) {
     const int k = point->report.obstacle;
     if (k < 0 || !moves(evolution, k)) return vec3(0, 0, 0);
-    const double share = share_of(evolution, point);
-    const CpsiShift shift = shift_of(evolution, k, share);
     const Vec3 x = vec3_load(point->report.position),
-               before =
-                   cpsi_obstacle_turn(&evolution->obstacle[k], x, -share * evolution->angle[k]),
-               way = vec3_add(vec3_sub(x, before), cpsi_shift_to(&shift, before));
-    return vec3_scale(1 / share, way);
+               before = cpsi_obstacle_turn(&evolution->obstacle[k], x, -evolution->angle[k]);
+    return vec3_add(vec3_sub(x, before), cpsi_shift_to(&evolution->shift[k], before));
 }
 
 double cpsi_ground_rate(const CpsEvolution *evolution, const CpsiPoint *point) {

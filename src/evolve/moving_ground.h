@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Obstacles that turn or move under free points in steps in time (docs/theory.md 9). The reference
  * x* of a point is carried along by an obstacle for the span k of the scheme, the last share k/h of
- * the step; over k, that is the way of the ground whose rate friction and landing refer to. */
+ * the step; by one that turns, x_n and x_{n-1} are, and x* is made of these. What sticks goes with
+ * it exactly. */
 #ifndef CAPSTAN_SRC_EVOLVE_MOVING_GROUND_H
 #define CAPSTAN_SRC_EVOLVE_MOVING_GROUND_H
 

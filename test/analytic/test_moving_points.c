@@ -331,6 +331,38 @@ static void a_floor_throws_clumps_up(void **state) {
     CHECK_LESS(fabs(off[1]), 3e-5);
 }
 
+/* A table that turns at a constant rate w takes clumps round that have its velocity, r w^2 < mu g:
+ * they stay where they are on it, by either scheme and in steps of any length. */
+static void a_table_takes_clumps_round(void **state) {
+    (void)state;
+    const double rate = 1, time = 10;
+    for (int scheme = 0; scheme < 2; scheme++)
+        for (int count = 50; count <= 200; count *= 4) {
+            Rig rig;
+            clumps(&rig, (CpsTimeScheme)scheme, 0.9);
+            const double from[3] = {rig.point[0].position[0], rig.point[0].position[1], 0};
+            for (int i = 0; i < 2; i++)
+                place(rig.point[i].velocity, -rate * rig.point[i].position[1],
+                      rate * rig.point[i].position[0], 0);
+            CpsStage *stage = add_stage(&rig, time, count);
+            shift(&rig, stage, 0, 0, 0);
+            place(rig.shift[0].turn, 0, 0, rate * time);
+            CpsEvolution *evolution = open(&rig);
+            Sums sums = {0};
+            steps(evolution, count, &sums);
+            const double c = cos(rate * time), s = sin(rate * time),
+                         off = hypot(at(evolution, 0, 0) - (c * from[0] - s * from[1]),
+                                     at(evolution, 0, 1) - (s * from[0] + c * from[1]));
+            char name[48];
+            snprintf(name, sizeof name, "turntable, %s, %d steps", scheme ? "Euler" : "BDF2",
+                     count);
+            figure(name, "off its place [m]", 0, off);
+            CHECK_LESS(off, 1e-12);
+            CHECK_LESS(sums.imbalance, 1e-10 * sums.turnover);
+            cps_evolution_destroy(evolution);
+        }
+}
+
 /* A point that is held on a floor goes up with it: the floor does the work, the ledger closes. */
 static void a_held_point_rises_with_the_floor(void **state) {
     (void)state;
@@ -421,29 +453,35 @@ static void clumps_on_a_line_over_a_drum(void **state) {
     }
 }
 
-/* A body on two lines over a drum that slips under them hangs at rest: each held end takes half of
- * its weight, times or over e^(mu pi). */
+/* A body on two lines over a drum, in balance without friction; both lines end at held points. */
+static void hang(Rig *rig, double friction, double mass, double line_mass) {
+    const double r = 0.1, half = mass * G / 2;
+    drum(rig, CPS_TIME_SCHEME_EULER, friction, r);
+    rig->scene.body_count = 1;
+    for (int i = 0; i < 2; i++)
+        (void)tie_over(rig, i, i, 2 + i, 0.2 * i - 0.1, r, 16, 0.4, 2e4, line_mass, half);
+    rig->scene.point_count = 4;
+    const double low = rig->point[2].position[2] - 0.1;
+    rig->body.kind = CPS_BODY_KIND_FREE;
+    place(rig->body.position, r, 0, low);
+    rig->body.weight = mass * G;
+    rig->body.mass = mass;
+    place(rig->body.inertia, 0.02, 0.02, 0.02);
+    for (int i = 0; i < 2; i++) {
+        rig->point[2 + i].kind = CPS_POINT_KIND_ON_BODY;
+        rig->point[2 + i].body = 0;
+        place(rig->point[2 + i].position, 0, 0.2 * i - 0.1, 0.1);
+    }
+}
+
+/* ... over a drum that slips under them it hangs at rest: each held end takes half of its weight,
+ * times or over e^(mu pi). */
 static void a_body_on_lines_over_a_drum(void **state) {
     (void)state;
-    const double r = 0.1, friction = 0.3, mass = 4, half = mass * G / 2;
+    const double friction = 0.3, mass = 4, half = mass * G / 2;
     for (int direction = -1; direction < 2; direction += 2) {
         Rig rig;
-        drum(&rig, CPS_TIME_SCHEME_EULER, friction, r);
-        rig.scene.body_count = 1;
-        for (int i = 0; i < 2; i++)
-            (void)tie_over(&rig, i, i, 2 + i, 0.2 * i - 0.1, r, 16, 0.4, 2e4, 1e-3, half);
-        rig.scene.point_count = 4;
-        const double low = rig.point[2].position[2] - 0.1;
-        rig.body.kind = CPS_BODY_KIND_FREE;
-        place(rig.body.position, r, 0, low);
-        rig.body.weight = mass * G;
-        rig.body.mass = mass;
-        place(rig.body.inertia, 0.02, 0.02, 0.02);
-        for (int i = 0; i < 2; i++) {
-            rig.point[2 + i].kind = CPS_POINT_KIND_ON_BODY;
-            rig.point[2 + i].body = 0;
-            place(rig.point[2 + i].position, 0, 0.2 * i - 0.1, 0.1);
-        }
+        hang(&rig, friction, mass, 1e-3);
         turn(&rig, add_stage(&rig, 2, 200), direction * 4 * PI);
         CpsEvolution *evolution = open(&rig);
         Sums sums = {0};
@@ -492,6 +530,34 @@ static void thrown(const double v[3], int count, double out[3 * POINTS]) {
     cps_evolution_destroy(evolution);
 }
 
+/* ... and a body that swings on lines over a drum that turns, their other ends held in the frame.
+ */
+static void swung(const double v[3], int count, double out[3]) {
+    const double time = 0.4;
+    Rig rig;
+    hang(&rig, 0.2, 4, 0.2);
+    memcpy(rig.body.velocity, v, 3 * sizeof *v);
+    rig.body.velocity[0] += 0.3;
+    rig.body.velocity[1] += 0.2;
+    for (int i = 0; i < 2; i++) memcpy(rig.line[i].velocity, v, 3 * sizeof *v);
+    CpsStage *stage = add_stage(&rig, time, count);
+    shift(&rig, stage, v[0] * time, v[1] * time, v[2] * time);
+    turn(&rig, stage, 3);
+    for (int i = 0; i < 2; i++) {
+        rig.change[i] = (CpsPointChange){.point = i, .kind = CPS_POINT_KIND_HELD};
+        for (int a = 0; a < 3; a++) rig.change[i].value[a] = rig.point[i].position[a] + v[a] * time;
+    }
+    stage->point_change = rig.change;
+    stage->point_change_count = 2;
+    CpsEvolution *evolution = open(&rig);
+    Sums sums = {0};
+    steps(evolution, count, &sums);
+    const CpsBodyReport report = cps_evolution_body_report(evolution, 0);
+    for (int a = 0; a < 3; a++) out[a] = report.position[a] - v[a] * time;
+    CHECK_LESS(sums.imbalance, 1e-10 * sums.turnover);
+    cps_evolution_destroy(evolution);
+}
+
 /* All that moves in a frame moves so in another one. */
 static void a_frame_of_constant_velocity(void **state) {
     (void)state;
@@ -501,6 +567,13 @@ static void a_frame_of_constant_velocity(void **state) {
     thrown(frame, 120, b);
     for (int i = 0; i < 9; i++) most = fmax(most, fabs(a[i] - b[i]));
     figure("frames", "largest difference of places [m]", 0, most);
+    CHECK_LESS(most, 1e-8);
+    const double slow[3] = {0.5, -0.3, 0.2};
+    swung(still, 120, a);
+    swung(slow, 120, b);
+    most = 0;
+    for (int i = 0; i < 3; i++) most = fmax(most, fabs(a[i] - b[i]));
+    figure("frames", "largest difference of the body's place [m]", 0, most);
     CHECK_LESS(most, 1e-8);
 }
 
@@ -553,6 +626,7 @@ int main(void) {
         cmocka_unit_test(a_belt_takes_clumps_along),
         cmocka_unit_test(a_table_goes_to_and_fro),
         cmocka_unit_test(a_program_moves_the_table),
+        cmocka_unit_test(a_table_takes_clumps_round),
         cmocka_unit_test(a_floor_throws_clumps_up),
         cmocka_unit_test(a_held_point_rises_with_the_floor),
         cmocka_unit_test(clumps_on_a_line_over_a_drum),

@@ -20,6 +20,7 @@
 #include <stdlib.h>
 
 #include "anchors.h"
+#include "formula.h"
 #include "groups.h"
 #include "joint_motion.h"
 #include "sets.h"
@@ -253,14 +254,38 @@ static double share_of(const Points *p) {
     return span > 0 ? span / h : 1;
 }
 
-/* What a surface that gives opposes to a free point. */
+/* Where ground has taken what friction is measured from. In the matter of the ground a place is
+ * where that has come to at the end of the step, and the slip is (y - y*) there, by the scheme: of
+ * the place when the step began, y_n, and by a parabola of the one before as well, which follows
+ * from x* = x_n + b (x_n - x_{n-1}). The ground moves steadily in both steps. */
+static void carry_reference(const Points *p, const Surface *on, Real out[3]) {
+    const PointMotion *motion = &p->motion[p->point];
+    const Junction *before = &p->before[p->point];
+    const double h = step_length_of(p->source, p->step),
+                 turn = p->line[0].turn[on - p->source->surface];
+    const double h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0;
+    const Real back = motion->span > 0 ? formula_of(motion->span, h, h_before).back : 0;
+    Real last[3], first[3], y[2][3];
+    widen(before->position, last);
+    surface_carry(on, last, 1, turn, y[0]);
+    for (int a = 0; a < 3; a++) out[a] = y[0][a];
+    if (!(back > 0)) return;
+    for (int a = 0; a < 3; a++) first[a] = last[a] - (motion->reference[a] - last[a]) / back;
+    surface_carry(on, first, 1 + (Real)h_before / h, turn, y[1]);
+    for (int a = 0; a < 3; a++) out[a] += back * (y[0][a] - y[1][a]);
+}
+
+/* What a surface that gives opposes to a free point. Where the first step of the file began is not
+ * in it; it is an Euler step, from its reference. */
 static SoftPush push_of(const Points *p, const Surface *surface, const Junction *at) {
     const PointMotion *motion = &p->motion[p->point];
     Real x[3], from[3], carried[3];
     widen(at->position, x);
     widen(motion->reference, from);
-    surface_carry(surface, from, share_of(p), p->line[0].turn[surface - p->source->surface],
-                  carried);
+    if (p->step == 0)
+        surface_carry(surface, from, 1, p->line[0].turn[surface - p->source->surface], carried);
+    else
+        carry_reference(p, surface, carried);
     return soft_point_push(surface,
                            soft_point_area(p->source, p->line, p->point, p->area[p->point]), x,
                            carried, motion->span);
@@ -350,10 +375,8 @@ static double bound_of(const Points *p, const Junction *at) {
     return mu * (p->source->consistent ? at->reaction : p->before[p->point].reaction);
 }
 
-/* [m] The way of what a point touches, there, in a step in time. As every velocity of the scheme
- * its own is a difference over the span k: of the place and of where its matter was k before. */
+/* [m] The way of what a point touches, there, in a step in time: from where its matter was. */
 static void ground_way(const Points *p, const Junction *at, double way[3]) {
-    const double share = share_of(p);
     for (int a = 0; a < 3; a++) way[a] = 0;
     if (at->obstacle < 0 || !(p->motion[p->point].span > 0)) return;
     const Surface *on = &p->source->surface[at->obstacle];
@@ -361,8 +384,8 @@ static void ground_way(const Points *p, const Junction *at, double way[3]) {
     Real x[3], was[3];
     if (turn == 0 && !surface_moves(on)) return;
     widen(at->position, x);
-    surface_uncarry(on, x, share, turn, was);
-    for (int a = 0; a < 3; a++) way[a] = (double)((x[a] - was[a]) / share);
+    surface_uncarry(on, x, 1, turn, was);
+    for (int a = 0; a < 3; a++) way[a] = (double)(x[a] - was[a]);
 }
 
 /* [m/s] How fast the surface itself moves there along its normal: a turn about its own axis moves
@@ -376,7 +399,7 @@ static double ground_rate(const Points *p, const Junction *at) {
     return (double)(rate / p->motion[p->point].span);
 }
 
-/* In time the slip is from x*, and friction works on the whole way less that of the ground. */
+/* In time friction works on the whole way, less that of the ground. */
 static void check_work(const Points *p, const Junction *at) {
     const double lost = at->dissipated, reach = size(at->position) + p->length[p->point];
     double way[3], off[3], sizes = 0;
@@ -420,10 +443,9 @@ static void check_friction(const Points *p, const Junction *at) {
                 off_law(at->friction, at->slip, bound) - bound * way, allowed);
     }
     if (p->step == 0) return; /* where it began is not in the file */
-    Real from[3], to[3], carried[3], slip[3];
-    widen(motion->span > 0 ? motion->reference : p->before[p->point].position, from);
+    Real to[3], carried[3], slip[3];
     widen(at->position, to);
-    surface_carry(surface, from, share_of(p), p->line[0].turn[at->obstacle], carried);
+    carry_reference(p, surface, carried);
     const Surface level = soft_level(surface, to);
     surface_slip(&level, carried, to, slip);
     at_most(p, "error of the slip", apart(at->slip, slip), 2 * way);
