@@ -510,14 +510,15 @@ void body_motion_check(const BodySteps *s, MotionFind *find, void *user) {
     check_inertia(s, formula.back, find, user);
     compare("growth of the kinetic energy", m->growth, kinetic - s->motion_before->kinetic,
             ENERGIES * (kinetic + s->motion_before->kinetic) + 1e-300, find, user);
-    Real t[3], lost = 0, sizes = 0;
+    Real t[3], lost = 0, sizes = 0, rounding = 0;
     vector_between(s->before->rotation, s->now->rotation, t);
     for (int i = 0; i < 3; i++) {
         const Real way = (Real)s->now->position[i] - s->before->position[i];
         lost -= m->damped[i] * way + m->damped[3 + i] * t[i];
-        sizes += fabsl(m->damped[i]) * (fabsl(way) + PLACES * s->reach) +
-                 fabsl(m->damped[3 + i]) * (fabsl(t[i]) + TURNS);
+        sizes += fabsl(m->damped[i]) * fabsl(way) + fabsl(m->damped[3 + i]) * fabsl(t[i]);
+        /* ways of a body at rest are differences of places and turns that are rounded */
+        rounding += fabsl(m->damped[i]) * PLACES * s->reach + fabsl(m->damped[3 + i]) * TURNS;
     }
     compare("energy dissipated by damping", m->lost, (double)lost,
-            ENERGIES * (double)sizes + 1e-300, find, user);
+            ENERGIES * (double)sizes + (double)rounding + 1e-300, find, user);
 }

@@ -41,6 +41,21 @@ history:
 {entry}  - {{name: go, duration: 0.2, time_step: 0.02}}
 """
 
+RESTS = """capstan: 1
+water_density: 1025
+current: [{z: 0, velocity: [0.3, 0.1, 0]}]
+bodies:
+  float: {free: [0, 0, 0], mass: 58300, centre_of_gravity: [0, 0, -1.5], buoyancy: 6.0e5, centre_of_buoyancy: [0, 0, -2.8], moments_of_inertia: [1.9e6, 1.9e6, 3.6e6],
+          hydrostatics: {z: 71080, rx: 2.56e6, ry: 2.56e6}, damping: {x: 4e3, y: 4e3, z: 8000, rx: 2e5, ry: 2e5},
+          members: [{from: [6, 6, -4], to: [-6, -5, -3], diameter: 1.5, normal: 1, added_normal: 1}]}
+points: {bow: {body: float, at: [7, 0, -3.5]}, port: {body: float, at: [-6, 6, -3.5]}, starboard: {body: float, at: [-6, -6, -3.5]}}
+lines:
+  first: {length: 97, elements: 8, weight: 300, inertia: 35, stiffness: 6e7, start: static, ends: {A: {held: [95, 0, -30]}, B: {point: bow}}}
+  second: {length: 97, elements: 8, weight: 300, inertia: 35, stiffness: 6e7, start: static, ends: {A: {held: [-47.5, 82.27, -30]}, B: {point: port}}}
+  third: {length: 97, elements: 8, weight: 300, inertia: 35, stiffness: 6e7, start: static, ends: {A: {held: [-47.5, -82.27, -30]}, B: {point: starboard}}}
+history: [{name: calm, duration: 5, time_step: 0.25}]
+"""
+
 
 def forced(t, mass, stiffness, terms):
     """From rest: the response of a mass on a spring to the sum of S sin(w t) and C (1 - cos(w t)), by superposition."""
@@ -192,6 +207,13 @@ def begins(capstan, checker, folder):
         assert abs(settling[1] - (kinetic[0] if entry else 0)) <= 1e-12, settling
 
 
+def rests(capstan, checker, folder):
+    """What floats at rest in time moves by rounding alone, and what its damping takes is as small: the checker knows what it cannot know."""
+    _, out, _ = solve(capstan, checker, folder, RESTS)
+    kinetic = column(out, "kinetic")
+    assert max(kinetic) < 1e-9, kinetic
+
+
 def main():
     capstan, checker = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
@@ -199,6 +221,7 @@ def main():
         held(capstan, checker, folder)
         knot(capstan, checker, folder)
         begins(capstan, checker, folder)
+        rests(capstan, checker, folder)
         bad(capstan, folder)
 
 
