@@ -317,7 +317,7 @@ void cpsi_balance_start(CpsEvolution *evolution) {
     for (int k = 0; k < evolution->points.count; k++) {
         CpsiPoint *point = &evolution->points.point[k];
         if (at[k].gives && point->kind == CPS_POINT_KIND_FREE)
-            point->report.reaction = at[k].spring * fmax(0, -at[k].gap);
+            point->report.reaction = at[k].spring * fmax(0, -at[k].over);
         else if (at[k].gap <= CPS_TOUCH * point->length)
             point->report.reaction = fmax(0, -vec3_dot(at[k].rest, at[k].normal));
     }
@@ -391,15 +391,27 @@ static bool restart_at_surface(CpsiBalance *balance) {
     return any;
 }
 
+/* Does a point go into what gives, or out of it, in a step that is no Euler step of it? */
+static bool is_late(const CpsiBalance *balance, const CpsiFree *at) {
+    const CpsEvolution *evolution = balance->evolution;
+    return evolution->points.point[at->point].inertia.span < evolution->interval &&
+           cpsi_soft_point_is_crossed(evolution, at->point, at->place);
+}
+
 /* The lines of a group whose motion is rough (time_step.h), whose nodes are to be taken by Euler
- * steps: those lines are again as they were, and so is the next step of their nodes. Returns
- * whether there are any. */
+ * steps, as are points that go into what gives or out of it: those lines are again as they were,
+ * and so is the next step of their nodes. Returns whether there are any. */
 static bool restart_rough(CpsiBalance *balance, int group) {
     CpsEvolution *evolution = balance->evolution;
     bool any = restart_at_surface(balance);
     for (int item = 0; item < balance->line_count; item++)
         any = cpsi_line_is_rough(&evolution->line[balance->line[item]], evolution->interval) || any;
+    for (int k = 0; k < balance->count; k++) any = any || is_late(balance, &balance->at[k]);
     if (!any) return false;
+    for (int k = 0; k < balance->count; k++) {
+        CpsiPointInertia *inertia = &evolution->points.point[balance->at[k].point].inertia;
+        inertia->restarts = inertia->restarts || is_late(balance, &balance->at[k]);
+    }
     for (int item = 0; item < balance->line_count; item++) {
         const int i = balance->line[item];
         cpsi_trial_restore_line(balance, i);

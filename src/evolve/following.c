@@ -195,7 +195,9 @@ static Rows rows_on_surface(const Following *f, int point, double size) {
     const double mu =
         stick || !f->is_static ? on->friction[0] * cpsi_obstacle_friction_factor(on, x) : 0;
     const double slip = vec3_norm(s), bound = follows ? mu * report->reaction : vec3_norm(friction),
-                 spring = gives ? cpsi_soft_point_stiffness(evolution, point, report->obstacle) : 0;
+                 spring =
+                     gives ? cpsi_soft_point_spring(evolution, point, report->obstacle, x).stiffness
+                           : 0;
     const bool rests = mu > 0 && (stick || !(slip > CPS_TOUCH * of->length));
     const CpsiObstacle level = cpsi_obstacle_within(on, gives ? cpsi_soft_way_depth(on, x) : 0);
     Rows out = rests ? held(size) : in_plane(size, n, s, mu > 0 ? bound : 0, turn_of(&level, slip));

@@ -139,7 +139,7 @@ static void find_stiffness(CpsiBalance *balance) {
 
 /* Is the point to be on the obstacle after the step, or in one that gives? */
 static bool is_to_touch(const CpsiFree *at) {
-    const double gap = at->gives ? at->gap : fmax(at->gap, 0);
+    const double gap = at->gives ? at->over : fmax(at->gap, 0);
     return at->obstacle != CPS_NO_OBSTACLE && -vec3_dot(at->rest, at->normal) > at->stiffness * gap;
 }
 
@@ -184,7 +184,7 @@ static void add_normal(Equation *out, const CpsiFree *at) {
     if (at->gives && is_to_touch(at)) {
         vec3_add_outer(out->p, 1, n, n);
         vec3_add_outer(out->q, at->spring, n, n);
-        out->v = vec3_axpy(vec3_dot(at->rest, n) - at->spring * at->gap, n, out->v);
+        out->v = vec3_axpy(vec3_dot(at->rest, n) - at->spring * at->over, n, out->v);
     } else if (is_to_touch(at)) {
         vec3_add_outer(out->q, at->stiffness, n, n);
         out->v = vec3_axpy(-at->stiffness * at->gap, n, out->v);

@@ -10,7 +10,6 @@
 #include "evolve/body_motion_check.h"
 #include "evolve/radiation.h"
 #include "evolve/ranges.h"
-#include "evolve/soft_check.h"
 
 bool cpsi_is_in_time(const CpsScene *scene) {
     bool any = scene->in_time;
@@ -185,8 +184,7 @@ static CpsStatus check_points(const CpsScene *scene, bool in_time, CpsError *err
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "bodies.%s", body->name);
     }
     if (!in_time || !may_be_free(scene)) return CPS_OK;
-    const CpsStatus status = cpsi_soft_time_check(scene, err);
-    return status == CPS_OK ? check_beside_free(scene, err) : status;
+    return check_beside_free(scene, err);
 }
 
 CpsStatus cpsi_time_check(const CpsScene *scene, CpsError *err) {

@@ -203,8 +203,11 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
      * the stiffness is known */
     if (cpsi_vec3_is_zero(vec3_sub(at->place, at->start))) at->slip = vec3(0, 0, 0);
     at->gives = on->stiffness > 0;
-    at->spring = cpsi_soft_point_stiffness(evolution, at->point, at->obstacle);
-    if (at->gives) find_slip_within(on, before, at);
+    if (!at->gives) return;
+    const CpsiSoft soft = cpsi_soft_point_spring(evolution, at->point, at->obstacle, before);
+    at->spring = soft.stiffness;
+    at->over = at->gap + soft.rest;
+    find_slip_within(on, before, at);
 }
 
 /* [m] A point that is no farther from an obstacle, or has slid no farther, touches it, or is at
@@ -271,7 +274,7 @@ static void find_touch(const CpsiBalance *balance, CpsiFree *at) {
     at->left = at->rest;
     if (at->obstacle == CPS_NO_OBSTACLE) return;
     if (at->gives)
-        at->reaction = at->spring * fmax(0, -at->gap);
+        at->reaction = at->spring * fmax(0, -at->over);
     else if (at->gap <= touch)
         at->reaction = fmax(0, -vec3_dot(at->rest, at->normal));
     at->bound = at->friction * (balance->follows ? at->reaction : point->reaction_before);

@@ -28,8 +28,8 @@ typedef struct CpsiFree {
     /* at the nearest obstacle, where there is one */
     int obstacle;
     double gap, friction, bound, reaction;
-    bool gives;               /* that obstacle does (soft_point.h): R = `spring` max(0, -gap) */
-    double spring;            /* [N/m] */
+    bool gives;               /* that obstacle does (soft_point.h): R = `spring` max(0, -over) */
+    double spring, over;      /* [N/m]; [m] by how much it is above where the spring begins */
     Vec3 normal, slip, force; /* force: F */
     bool drags;               /* an anchor: in a plane across `normal`, within its bound */
     CpsiWater water;          /* whose buoyancy is in `rest` */

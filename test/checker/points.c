@@ -26,7 +26,6 @@
 #include "groups.h"
 #include "joint_motion.h"
 #include "sets.h"
-#include "soft.h"
 #include "water.h"
 
 /* Sums of a few numbers of the file, per largest force; a balance, in tolerances of the step: what
@@ -287,8 +286,51 @@ static void add_water(const Points *p, PointSteps *steps) {
     steps->buoyancy = water->displaced;
 }
 
+/* The share of the step for which an obstacle carries the reference along. */
+static double share_of(const Points *p) {
+    const double span = p->motion[p->point].span, h = step_length_of(p->source, p->step);
+    return span > 0 ? span / h : 1;
+}
+
+/* Where ground has taken what friction is measured from. In the matter of the ground a place is
+ * where that has come to at the end of the step, and the slip is (y - y*) there, by the scheme: of
+ * the place when the step began, y_n, and by a parabola of the one before as well, which follows
+ * from x* = x_n + b (x_n - x_{n-1}). The ground moves steadily in both steps. */
+static void carry_reference(const Points *p, const Surface *on, Real out[3]) {
+    const PointMotion *motion = &p->motion[p->point];
+    const Junction *before = &p->before[p->point];
+    const double h = step_length_of(p->source, p->step),
+                 turn = p->line[0].turn[on - p->source->surface];
+    const double h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0;
+    const Real back = motion->span > 0 ? formula_of(motion->span, h, h_before).back : 0;
+    Real last[3], first[3], y[2][3];
+    widen(before->position, last);
+    surface_carry(on, last, 1, turn, y[0]);
+    for (int a = 0; a < 3; a++) out[a] = y[0][a];
+    if (!(back > 0)) return;
+    for (int a = 0; a < 3; a++) first[a] = last[a] - (motion->reference[a] - last[a]) / back;
+    surface_carry(on, first, 1 + (Real)h_before / h, turn, y[1]);
+    for (int a = 0; a < 3; a++) out[a] += back * (y[0][a] - y[1][a]);
+}
+
+/* What a surface that gives opposes to a free point. Where the first step of the file began is not
+ * in it; it is an Euler step, from its reference. */
+static SoftPush push_of(const Points *p, const Surface *surface, const Junction *at) {
+    const PointMotion *motion = &p->motion[p->point];
+    Real x[3], from[3], carried[3];
+    widen(at->position, x);
+    widen(motion->reference, from);
+    if (p->step == 0)
+        surface_carry(surface, from, 1, p->line[0].turn[surface - p->source->surface], carried);
+    else
+        carry_reference(p, surface, carried);
+    return soft_point_push(surface,
+                           soft_point_area(p->source, p->line, p->point, p->area[p->point]), x,
+                           carried, motion->span);
+}
+
 /* In what gives a held point bears on what holds it, and one in a set has no place. Another free
- * point has the reaction of a spring of the one in which it lies deepest. */
+ * point has the reaction of spring and damping of the one in which it lies deepest. */
 static void check_soft(const Points *p, const Junction *at) {
     const Source *source = p->source;
     const double place = PLACES * (p->length[p->point] + size(at->position)),
@@ -309,17 +351,19 @@ static void check_soft(const Points *p, const Junction *at) {
         if (touched && (is_held(at) || in_set))
             find(p, "what gives is said to bear a point that is held");
         if (is_held(at) || (in_set && !at->has_place)) continue;
-        const double stiff =
-            (double)soft_point_stiffness(source, p->line, p->point, p->area[p->point], surface);
+        const SoftPush push = push_of(p, surface, at);
+        const double force = (double)push.force, stiff = (double)push.steep;
         if (!touched && at->obstacle < 0)
-            at_most(p, "depth in what gives but does not press", stiff > 0 || in_set ? depth : 0,
+            at_most(p, "depth in what gives but does not press",
+                    in_set      ? depth
+                    : stiff > 0 ? force / stiff
+                                : 0,
                     place);
         else if (!touched)
             at_most(p, "depth in another obstacle, beside that in which it lies",
                     depth + (double)surface_distance(&source->surface[at->obstacle], x), place);
         else
-            at_most(p, "reaction against that of the depth",
-                    fabs(at->reaction - stiff * fmax(0, depth)),
+            at_most(p, "reaction against that of the depth", fabs(at->reaction - force),
                     SUMS * p->largest + stiff * copied);
     }
 }
@@ -369,12 +413,6 @@ static double bound_of(const Points *p, const Junction *at) {
     return mu * (p->source->consistent ? at->reaction : p->before[p->point].reaction);
 }
 
-/* The share of the step for which an obstacle carries the reference along. */
-static double share_of(const Points *p) {
-    const double span = p->motion[p->point].span, h = step_length_of(p->source, p->step);
-    return span > 0 ? span / h : 1;
-}
-
 /* [m] The way of what a point touches, there, in a step in time: from where its matter was. */
 static void ground_way(const Points *p, const Junction *at, double way[3]) {
     for (int a = 0; a < 3; a++) way[a] = 0;
@@ -386,27 +424,6 @@ static void ground_way(const Points *p, const Junction *at, double way[3]) {
     widen(at->position, x);
     surface_uncarry(on, x, 1, turn, was);
     for (int a = 0; a < 3; a++) way[a] = (double)(x[a] - was[a]);
-}
-
-/* Where ground has taken what friction is measured from. In the matter of the ground a place is
- * where that has come to at the end of the step, and the slip is (y - y*) there, by the scheme: of
- * the place when the step began, y_n, and by a parabola of the one before as well, which follows
- * from x* = x_n + b (x_n - x_{n-1}). The ground moves steadily in both steps. */
-static void carry_reference(const Points *p, const Surface *on, Real out[3]) {
-    const PointMotion *motion = &p->motion[p->point];
-    const Junction *before = &p->before[p->point];
-    const double h = step_length_of(p->source, p->step),
-                 turn = p->line[0].turn[on - p->source->surface];
-    const double h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0;
-    const Real back = motion->span > 0 ? formula_of(motion->span, h, h_before).back : 0;
-    Real last[3], first[3], y[2][3];
-    widen(before->position, last);
-    surface_carry(on, last, 1, turn, y[0]);
-    for (int a = 0; a < 3; a++) out[a] = y[0][a];
-    if (!(back > 0)) return;
-    for (int a = 0; a < 3; a++) first[a] = last[a] - (motion->reference[a] - last[a]) / back;
-    surface_carry(on, first, 1 + (Real)h_before / h, turn, y[1]);
-    for (int a = 0; a < 3; a++) out[a] += back * (y[0][a] - y[1][a]);
 }
 
 /* [m/s] How fast the surface itself moves there along its normal: a turn about its own axis moves
@@ -512,6 +529,21 @@ static void find_in_time(void *user, const char *what, double said, double expec
     find(user, "%s: %.9g, expected %.9g", what, said, expected);
 }
 
+/* Does a free point bear on something rigid? What gives stops none. */
+static bool is_stopped(const Points *p, const Junction *at) {
+    return !is_held(at) && at->reaction > 0 && at->obstacle >= 0 &&
+           !(p->source->surface[at->obstacle].gives > 0);
+}
+
+/* What gives below a point, in a step that is not the first of the file. */
+static SoftWork soft_work_of(const Points *p, const Junction *at) {
+    if (p->step == 0 || is_held(at) || point_sets_has(p->sets, p->point))
+        return (SoftWork){0, 0, 0, 0};
+    const Real area = soft_point_area(p->source, p->line, p->point, p->area[p->point]);
+    return soft_point_work(p->source, area, p->before[p->point].position, at->position,
+                           at->reaction);
+}
+
 /* The motion of a point, and that the ends of lines there move with it. */
 static void check_motion(Points *p) {
     const PointMotion *motion = &p->motion[p->point];
@@ -531,7 +563,10 @@ static void check_motion(Points *p) {
                         .largest = p->largest,
                         .rate = p->rate[p->point],
                         .rate_before = p->rate_before[p->point],
-                        .is_free = !is_held(at)};
+                        .is_free = !is_held(at),
+                        .is_stopped = is_stopped(p, at),
+                        .was_stopped = p->step > 0 && is_stopped(p, &p->before[p->point]),
+                        .soft = soft_work_of(p, at)};
     ground_way(p, at, steps.ground);
     add_water(p, &steps);
     if (p->step > 0)

@@ -51,7 +51,7 @@ void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
 
 enum { CPSI_POINT_VECTORS = 9, CPSI_POINT_NUMBERS = 7, CPSI_POINT_INTS = 5 };
 /* in time */
-enum { CPSI_POINT_MOTIONS = 3, CPSI_POINT_MOTION_NUMBERS = 6 };
+enum { CPSI_POINT_MOTIONS = 3, CPSI_POINT_MOTION_NUMBERS = 7 };
 
 /* The sets to which ends of a line, or points, are held (capstan/constraint.h). */
 typedef struct CpsiNetcdfSets {

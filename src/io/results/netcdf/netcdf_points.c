@@ -82,6 +82,8 @@ static const struct {
      CPSI_MEMBER(CpsPointMotion, ledger.scheme)},
     {"ledger_settling_of_point", "energy lost where a quasi-static step brings it to rest", "J",
      CPSI_MEMBER(CpsPointMotion, ledger.settling)},
+    {"ledger_damping_of_point", "energy lost to the damping of the ground that gives below it", "J",
+     CPSI_MEMBER(CpsPointMotion, ledger.damping)},
 };
 
 typedef enum PointInt {
