@@ -544,8 +544,10 @@ CpsPointReport cps_evolution_point_view(const CpsEvolution *evolution, int point
 
 CpsPointReport cps_evolution_point_report(const CpsEvolution *evolution, int point) {
     CpsPointReport report = cps_evolution_point_view(evolution, point);
-    if (point >= 0 && point < cps_evolution_point_count(evolution))
+    if (point >= 0 && point < cps_evolution_point_count(evolution)) {
         to_scene(evolution, report.position);
+        if (report.water != CPS_POINT_WATER_NONE) report.water_level += evolution->origin[2];
+    }
     return report;
 }
 

@@ -10,6 +10,7 @@
 #include "evolve/pace.h"
 #include "evolve/points.h"
 #include "evolve/soft_point.h"
+#include "evolve/water.h"
 
 /* The end of a line with inertia that is at a point. */
 typedef struct LineEnd {
@@ -166,6 +167,20 @@ static double energy_of_landing(double mass, const double v[3], Vec3 n, double g
     return 0.5 * mass * rate * rate;
 }
 
+/* What the water does to it: the energy of the buoyancy, what the scheme loses of that, which is
+ * not negative since the energy is convex, and what the surface does as it rises. */
+static void add_water(CpsiPoint *point) {
+    CpsiPointInertia *inertia = &point->inertia;
+    const CpsPointReport *report = &point->report;
+    const double height = cpsi_surface_height(&point->surface, vec3_load(point->position)),
+                 sunk = cpsi_surface_height(&point->surface, vec3_load(point->before)),
+                 before = point->height_before;
+    inertia->afloat = cpsi_water_energy(report->displaced, point->extent, height) -
+                      cpsi_water_energy(report->displaced, point->extent, before);
+    inertia->ledger.scheme -= report->buoyancy * (height - before) + inertia->afloat;
+    inertia->ledger.waves = report->buoyancy * (before - sunk);
+}
+
 /* The ledger of the step, by the values after it, before what bears is stopped. */
 static void close_ledger(const CpsEvolution *evolution, int index, const double velocity[3]) {
     CpsiPoint *point = &evolution->points.point[index];
@@ -181,6 +196,7 @@ static void close_ledger(const CpsEvolution *evolution, int index, const double 
         (CpsMotionLedger){.kinetic = gained, .damping = cpsi_soft_point_damped(evolution, index)};
     ledger->scheme = -vec3_dot(vec3_load(report->inertia), way) - gained - stored - ledger->damping;
     ledger->turnover = fabs(stored);
+    add_water(point);
     report->dissipated = 0;
     if (bears_now(point)) {
         report->dissipated = -vec3_dot(vec3_load(report->friction), slip);
@@ -194,7 +210,7 @@ static void close_ledger(const CpsEvolution *evolution, int index, const double 
 
 static void add_turnover(const CpsPointReport *report, CpsMotionLedger *ledger) {
     ledger->turnover += fabs(report->dissipated) + fabs(ledger->kinetic) + fabs(ledger->impact) +
-                        fabs(ledger->scheme) + fabs(ledger->damping);
+                        fabs(ledger->scheme) + fabs(ledger->damping) + fabs(ledger->waves);
 }
 
 /* The end of a line follows its point; where that bears, and has been stopped along the normal, the
@@ -267,8 +283,8 @@ void cpsi_point_motion_advance(CpsEvolution *evolution) {
         }
         add_turnover(report, &inertia->ledger);
         inertia->bore = bears;
-        inertia->restarts =
-            inertia->landed || cpsi_soft_point_is_crossed(evolution, i, vec3_load(point->position));
+        inertia->restarts = inertia->landed || inertia->crossed ||
+                            cpsi_soft_point_is_crossed(evolution, i, vec3_load(point->position));
     }
     LineEnd end;
     for (int k = 0; k < 2 * evolution->line_count; k++)

@@ -50,15 +50,20 @@ static double work_on_point(const CpsEvolution *evolution, const CpsiPoint *poin
                               vec3_load(report->friction)));
 }
 
-/* [J] of load and weight on a point, or of what holds it beside an obstacle that moves. */
+/* [J] of load, weight and buoyancy on a point, by the energy of the latter, or of what holds it
+ * beside an obstacle that moves. */
 static double work_outside(const CpsEvolution *evolution, int index) {
     const CpsiPoint *point = &evolution->points.point[index];
     const CpsPointReport *report = &point->report;
     Vec3 force = vec3(0, 0, 0);
-    if (point->kind == CPS_POINT_KIND_FREE) force = vec3_load(report->load);
+    double afloat = 0;
+    if (point->kind == CPS_POINT_KIND_FREE) {
+        force = vec3_load(report->load);
+        afloat = point->inertia.afloat;
+    }
     if (point->kind == CPS_POINT_KIND_HELD)
         force = vec3_axpy(report->reaction, vec3_load(report->normal), vec3_load(report->support));
-    const double work = vec3_dot(force, way_of_point(evolution, index));
+    const double work = vec3_dot(force, way_of_point(evolution, index)) - afloat;
     return point->kind == CPS_POINT_KIND_HELD ? work - work_on_point(evolution, point) : work;
 }
 
@@ -121,6 +126,7 @@ static void add_in_time(const CpsEvolution *evolution, double pushed, CpsStepRep
         const CpsiPoint *point = &evolution->points.point[i];
         outside += work_outside(evolution, i);
         spent += point->report.dissipated + spent_by(&point->inertia.ledger);
+        water += point->inertia.ledger.waves;
     }
     for (int i = 0; i < evolution->bodies.count; i++) {
         const CpsiBody *body = &evolution->bodies.body[i];

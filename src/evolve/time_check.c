@@ -145,13 +145,6 @@ static CpsStatus check_point(const CpsScene *scene, int index, bool in_time, Cps
                             "point '%s': drags: a step of the history has a duration, in which "
                             "anchors do not drag: leave it out",
                             point->name);
-    if (scene->has_water_surface && point->displaced_weight > 0)
-        return CPSI_FAIL_AT("volume", err, CPS_ERR_ARGUMENT,
-                            "point '%s': volume: a step of the history has a duration, in which "
-                            "points do not float at a water surface: leave 'water_surface' out, "
-                            "and the point is always under water, or give its weight in water in "
-                            "place of the volume",
-                            point->name);
     return moves(v, 3) ? check_first_step(scene, "point", point->name, err) : CPS_OK;
 }
 

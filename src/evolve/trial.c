@@ -298,12 +298,14 @@ static void find_contact(const CpsiBalance *balance, CpsiFree *at) {
     }
     double range[2], stiffness = at->stiffness;
     cpsi_water_range(&at->water, cpsi_trial_touch(balance, at), range);
-    find_touch_with(balance, at, fmin(fmax(-at->rest.z, range[0]), range[1]));
+    const Vec3 n = at->water.n;
+    const double holds = -vec3_dot(at->rest, n) / vec3_dot(n, n);
+    find_touch_with(balance, at, fmin(fmax(holds, range[0]), range[1]));
     if (range[0] == range[1] || (at->reaction == 0 && at->bound == 0)) return;
     for (int i = 0; i < BISECTIONS; i++) {
         at->stiffness = stiffness;
         find_touch_with(balance, at, 0.5 * (range[0] + range[1]));
-        range[at->left.z < 0 ? 0 : 1] = at->water.buoyancy;
+        range[vec3_dot(at->left, n) < 0 ? 0 : 1] = at->water.buoyancy;
     }
 }
 
@@ -485,7 +487,8 @@ void cpsi_read_forces(CpsiBalance *balance) {
         }
         cpsi_point_load(&evolution->points.point[at->point], evolution->gravity, load);
         at->rest = vec3_load(load);
-        at->water = cpsi_water_at(&evolution->points, at->point, evolution->gravity, at->place.z);
+        at->water =
+            cpsi_water_at(&evolution->points.point[at->point], evolution->gravity, at->place);
         count_force(balance, vec3_norm(at->rest));
         balance->acting = fmax(balance->acting, at->water.displaced);
         if (evolution->interval > 0) add_point_inertia(balance, at);

@@ -41,7 +41,7 @@ typedef struct CpsiFree {
 
 /* `rest` with another buoyancy. */
 static inline Vec3 cpsi_rest_with(const CpsiFree *at, double buoyancy) {
-    return vec3(at->rest.x, at->rest.y, at->rest.z + (buoyancy - at->water.buoyancy));
+    return vec3_axpy(buoyancy - at->water.buoyancy, at->water.n, at->rest);
 }
 
 /* A free body in a trial: what acts on it, and what of that nothing balances. */

@@ -273,6 +273,9 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
         sizes += fabsl(force * way) + fabsl(push);
         rounding += SUMS * s->largest * fabsl(way);
     }
+    work += s->waves - s->afloat;
+    sizes += fabsl(s->waves) + fabsl(s->afloat);
+    rounding += SUMS * s->reach * s->buoyancy; /* of its height, in the energy of its buoyancy */
     compare("energy lost to the damping of what gives", m->damped, (double)s->soft.damped,
             ENERGIES * fabs(m->damped) + PLACES * s->reach * (double)s->soft.slope + 1e-300, find,
             user);

@@ -39,6 +39,10 @@ typedef struct PointSteps {
     const PointMotion *motion, *motion_before, *motion_older;
     double h, h_before, reach; /* [s] lengths of steps; [m] of the largest coordinate */
     double largest;            /* [N] force in the lines, which may cancel at the point */
+    /* [J] by which the energy of its buoyancy has grown, and what the waves did, by the checker;
+     * [N] the buoyancy */
+    Real afloat, waves;
+    double buoyancy;
     /* of what it touches: the way in the step, and the velocity along the normal, also before */
     double ground[3];         /* [m] */
     double rate, rate_before; /* [m/s] */

@@ -65,6 +65,8 @@ typedef struct CpsiNetcdfPoints {
     int capacity, limit, drags;
     int vector[CPSI_POINT_VECTORS], number[CPSI_POINT_NUMBERS], whole[CPSI_POINT_INTS];
     CpsiNetcdfSets sets;
+    bool floats; /* unused without: */
+    int direction, level, surface_waves;
     bool in_time; /* unused without: */
     int mass, inertia, motion[CPSI_POINT_MOTIONS], motion_number[CPSI_POINT_MOTION_NUMBERS], given;
 } CpsiNetcdfPoints;
