@@ -189,6 +189,8 @@ static void print_point(const CpsScene *scene, const CpsPoint *point) {
         printf(", %s of %g N", point->weight < 0 ? "buoy" : "clump", fabs(point->weight));
     if (scene->has_water_surface && point->displaced_weight > 0)
         printf(", displaces water of %g N", point->displaced_weight);
+    if (scene->has_water_surface && point->height > 0)
+        printf(" over a height of %g m", point->height);
     if (point->bearing_area > 0) printf(", bears on %g m2", point->bearing_area);
     if (point->has_holding_capacity) printf(", holding capacity %g N", point->holding_capacity);
     if (point->has_uplift_limit) printf(", uplift limit %g N", point->uplift_limit);

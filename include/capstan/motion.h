@@ -21,9 +21,8 @@
  * time, and those at which an element is snatched taut, are Euler steps. A node that lands does not
  * rebound, but for what the ground gives (CpsObstacle). It needs Coulomb's law, contact that is
  * reached, and a scene without lines that part, winches and anchors that drag. Beside free points
- * and bodies lines are elastic, and points do not float. The path tolerance has no
- * effect on lines with inertia. Motions and loads that a function of the program makes of time and
- * state are those of follow.h.
+ * and bodies lines are elastic. The path tolerance has no effect on lines with inertia. Motions and
+ * loads that a function of the program makes of time and state are those of follow.h.
  *
  * The velocity of what is held is that of the scheme by its places. A program that is coupled to
  * this one, and knows the velocity at the end of a step, may give it beside the place there
@@ -96,7 +95,7 @@ typedef struct CpsMotionLedger {
     double impact;   /* lost where nodes land */
     double scheme;   /* lost by the scheme: what a shorter step does not lose */
     double settling; /* lost where a quasi-static step brings to rest what moved before it */
-    double damping;  /* lost by internal damping */
+    double damping;  /* lost by internal damping, and in what gives */
     double drag;     /* work done on the water against its drag; of a current also negative */
     double added;    /* work done on the water that is moved along (CpsDrag), which gives it back */
     double waves;    /* work of the water's own acceleration in waves (waves.h) on the line */
@@ -134,9 +133,12 @@ typedef struct CpsLineMotion {
 /* The motion of a point in the last step, in the axes of the scene: v = (x - x*)/k, and the force
  * of its inertia is -m (v - v*)/k. Of a free point with the ledger
  *
- *     work of load and lines = dissipated + kinetic + impact + scheme,
+ *     work of load and lines + waves = afloat + dissipated + kinetic + impact + scheme + damping
+ *                              + growth of what obstacles that give have stored below it,
  *
- * dissipated that of its report, up to the work of what nothing balances there. */
+ * dissipated that of its report, damping what these obstacles lose, up to the work of what nothing
+ * balances there. Of one that floats `afloat` is the growth of the energy of its buoyancy
+ * (docs/theory.md 6d), and `waves` what the surface of the water does on it as it rises. */
 typedef struct CpsPointMotion {
     /* the last step had a duration; otherwise the next ones are 0, but the ledger where it came to
      * rest */

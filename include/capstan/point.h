@@ -48,6 +48,9 @@ typedef struct CpsPoint {
      * weight above is that in the water; what leaves it is heavier by this much, and at the surface
      * the buoyancy is whatever between 0 and this keeps it there. Without a surface not read. */
     double displaced_weight;
+    /* [m] >= 0, default 0: of what floats, upwards, with the point in its middle. Not 0, the
+     * buoyancy grows evenly as it sinks, from 0 where all of it is out of the water. */
+    double height;
     /* of steps in time (motion.h): [kg] >= 0, default 0, its mass and added mass, beside those of
      * the lines that end there; [m/s] its velocity as the history begins, of a free point, default
      * 0 0 0 */
@@ -125,6 +128,11 @@ typedef struct CpsPointReport {
     double dissipated;  /* [J] by its friction in this step, or by its drag */
     double buoyancy;  /* [N] upwards; where `water` is none it is part of the weight, and 0 here */
     double displaced; /* [N] the largest buoyancy, under the gravity of the step */
+    /* the force of the water is the buoyancy times this direction: 0 0 1, in waves e_z + a/g with
+     * the acceleration a of the water (motion.h); 0 0 0 where `water` is none */
+    double water_direction[3];
+    double
+        water_level; /* [m] z of the surface above or below it, in the coordinates of the scene */
     /* of an anchor; 0 of what it has no capacity or limit of */
     double capacity_used, uplift_used; /* [-] force over capacity, uplift over limit */
     double set_reaction[3];            /* [N] of the set that it is held to */

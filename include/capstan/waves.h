@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* capstan/waves.h: waves of small height (Airy) in the water of a scene, one or a sum of many,
- * which move the water about lines with drag in steps in time (motion.h).
+ * which move the water about lines with drag, and lift points that float (point.h), in steps in
+ * time (motion.h).
  *
  *     CpsWave wave = {.amplitude = 3, .period = 12};
  *     CpsWaves waves = {.depth = 320, .wave_count = 1, .wave = &wave};
@@ -41,8 +42,8 @@ typedef struct CpsWave {
 } CpsWave;
 
 /* All is 0 in a struct that is initialised so. They need a scene with a water surface, gravity
- * (0, 0, -g) that does not change, g > 0, a line with drag or a body with excitation (body.h), and
- * a step in time. */
+ * (0, 0, -g) that does not change, g > 0, a line with drag, a point with a displaced weight or a
+ * body with excitation or members (body.h), and a step in time. */
 typedef struct CpsWaves {
     double depth;        /* [m] d > 0 of the water at rest; INFINITY: deep */
     int wave_count;      /* 1..CPS_MAX_WAVES; their motions add up */

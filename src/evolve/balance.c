@@ -306,7 +306,7 @@ void cpsi_balance_start(CpsEvolution *evolution) {
         cpsi_trial_find_obstacle(evolution, &at[k]);
         cpsi_point_load(point, evolution->gravity, load);
         at[k].rest = vec3_load(load);
-        at[k].rest.z += cpsi_buoyancy_at(&evolution->points, point, evolution->gravity);
+        at[k].rest = vec3_add(at[k].rest, cpsi_buoyancy_at(point, evolution->gravity));
     }
     for (int i = 0; i < evolution->line_count; i++)
         for (int end = 0; end < 2; end++) {
@@ -317,7 +317,7 @@ void cpsi_balance_start(CpsEvolution *evolution) {
     for (int k = 0; k < evolution->points.count; k++) {
         CpsiPoint *point = &evolution->points.point[k];
         if (at[k].gives && point->kind == CPS_POINT_KIND_FREE)
-            point->report.reaction = at[k].spring * fmax(0, -at[k].gap);
+            point->report.reaction = at[k].spring * fmax(0, -at[k].over);
         else if (at[k].gap <= CPS_TOUCH * point->length)
             point->report.reaction = fmax(0, -vec3_dot(at[k].rest, at[k].normal));
     }
@@ -376,15 +376,42 @@ static bool stays(CpsiBalance *balance) {
     return false;
 }
 
-/* The lines of a group whose motion is rough (time_step.h), whose nodes are to be taken by Euler
- * steps: those lines are again as they were, and so is the next step of their nodes. Returns
- * whether there are any. */
-static bool restart_rough(CpsiBalance *balance, int group) {
+/* Points that come to the surface of the water or leave it, where the acceleration jumps: they are
+ * to be taken by an Euler step. Returns whether there are any that were not. */
+static bool restart_at_surface(CpsiBalance *balance) {
     CpsEvolution *evolution = balance->evolution;
     bool any = false;
+    for (int k = 0; k < balance->count; k++) {
+        const CpsiFree *at = &balance->at[k];
+        CpsiPoint *point = &evolution->points.point[at->point];
+        const CpsPointWater now = cpsi_water_state(&at->water, cpsi_trial_touch(balance, at));
+        if (now == point->report.water || !(point->inertia.span < evolution->interval)) continue;
+        point->inertia.restarts = any = true;
+    }
+    return any;
+}
+
+/* Does a point go into what gives, or out of it, in a step that is no Euler step of it? */
+static bool is_late(const CpsiBalance *balance, const CpsiFree *at) {
+    const CpsEvolution *evolution = balance->evolution;
+    return evolution->points.point[at->point].inertia.span < evolution->interval &&
+           cpsi_soft_point_is_crossed(evolution, at->point, at->place);
+}
+
+/* The lines of a group whose motion is rough (time_step.h), whose nodes are to be taken by Euler
+ * steps, as are points that go into what gives or out of it: those lines are again as they were,
+ * and so is the next step of their nodes. Returns whether there are any. */
+static bool restart_rough(CpsiBalance *balance, int group) {
+    CpsEvolution *evolution = balance->evolution;
+    bool any = restart_at_surface(balance);
     for (int item = 0; item < balance->line_count; item++)
         any = cpsi_line_is_rough(&evolution->line[balance->line[item]], evolution->interval) || any;
+    for (int k = 0; k < balance->count; k++) any = any || is_late(balance, &balance->at[k]);
     if (!any) return false;
+    for (int k = 0; k < balance->count; k++) {
+        CpsiPointInertia *inertia = &evolution->points.point[balance->at[k].point].inertia;
+        inertia->restarts = inertia->restarts || is_late(balance, &balance->at[k]);
+    }
     for (int item = 0; item < balance->line_count; item++) {
         const int i = balance->line[item];
         cpsi_trial_restore_line(balance, i);
@@ -392,6 +419,7 @@ static bool restart_rough(CpsiBalance *balance, int group) {
     }
     cpsi_point_motion_join(evolution, group);
     cpsi_point_motion_predict(evolution);
+    cpsi_water_find_surfaces(evolution);
     for (int item = 0; item < balance->line_count; item++) {
         const int i = balance->line[item];
         cpsi_line_keep(&evolution->line[i], &balance->state[balance->offset[i]]);
@@ -433,6 +461,8 @@ static void find_motion(CpsiBalance *balance, int group) {
         if (i > 0 || is_over(balance) || !restart_rough(balance, group)) break;
     }
     cpsi_report_found(balance);
+    if (balance->line_count == 0 && !cpsi_is_answer(balance)) /* no line says so */
+        balance->evolution->lone = cps_outcome_worse(balance->evolution->lone, CPS_OUTCOME_STALLED);
 }
 
 /* Take the answer as one program; of bodies also from poses within reach of their lines, since the
@@ -559,7 +589,9 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
     cpsi_soft_point_areas(evolution);
     evolution->lone = CPS_OUTCOME_SOLVED;
     for (int i = 0; i < points->count; i++) {
-        points->point[i].reaction_before = points->point[i].report.reaction;
+        CpsiPoint *point = &points->point[i];
+        point->reaction_before = point->report.reaction;
+        point->height_before = cpsi_surface_height(&point->surface, vec3_load(point->before));
         any = any || points->point[i].kind == CPS_POINT_KIND_FREE || cpsi_point_drags(points, i);
     }
     for (int i = 0; i < evolution->bodies.count; i++)
@@ -573,6 +605,7 @@ void cpsi_balance_step(CpsEvolution *evolution, CpsiTask step) {
         cpsi_point_motion_predict(evolution);
         cpsi_body_motion_predict(evolution);
     }
+    cpsi_water_find_surfaces(evolution);
     if (any) {
         balance->evolution = evolution;
         balance->task = step;

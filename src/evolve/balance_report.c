@@ -22,6 +22,8 @@ static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
     CpsPointReport *report = &point->report;
     const double touch = cpsi_trial_touch(balance, at), dissipated = -vec3_dot(at->force, at->slip);
     const bool touches = at->reaction > 0, slides = vec3_norm(at->slip) > touch;
+    const CpsPointWater water = cpsi_water_state(&at->water, touch);
+    point->inertia.crossed = water != report->water;
     *report = (CpsPointReport){.state = !touches ? CPS_POINT_STATE_FREE
                                         : slides ? CPS_POINT_STATE_SLIP
                                                  : CPS_POINT_STATE_STICK,
@@ -30,9 +32,13 @@ static void report_point(const CpsiBalance *balance, const CpsiFree *at) {
                                .dissipated = fmax(0, dissipated),
                                .trial_count = balance->trials};
     cpsi_point_load(point, evolution->gravity, report->load);
-    report->water = cpsi_water_state(&at->water, touch);
+    report->water = water;
     report->buoyancy = at->water.buoyancy;
     report->displaced = at->water.displaced;
+    if (water != CPS_POINT_WATER_NONE) {
+        vec3_store(report->water_direction, at->water.n);
+        report->water_level = cpsi_surface_below(&point->surface, at->place).z;
+    }
     vec3_store(report->position, at->place);
     if (evolution->interval > 0) vec3_store(report->inertia, cpsi_point_inertia(point, at->place));
     if (at->in_set.on) {

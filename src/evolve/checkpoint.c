@@ -33,7 +33,7 @@ typedef struct Head {
 
 /* The number at its end is raised when the bytes of a state change. Journals need no more: they are
  * tied to the build. */
-static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '8'};
+static const char MAGIC[8] = {'c', 'a', 'p', 's', 't', 'a', '2', '9'};
 
 /* A cursor over the bytes of a state, which are written, read, or only counted. */
 typedef struct Tape {
@@ -70,7 +70,7 @@ _Static_assert(sizeof(CpsLineReport) == 26 * 8 + sizeof(CpsCertificate) + sizeof
 _Static_assert(sizeof(CpsStepReport) == 9 * 8 + sizeof(CpsCertificate) + sizeof(CpsLedger),
                "add the new field to pass_step_report, then its size here");
 _Static_assert(sizeof(CpsBodyReport) == 85 * 8, "add the new field to pass_body, then its size");
-_Static_assert(sizeof(CpsPointReport) == 43 * 8,
+_Static_assert(sizeof(CpsPointReport) == 47 * 8,
                "add the new field to pass_point, then its size here");
 _Static_assert(sizeof(CpsBreak) == 5 * 8, "add the new field to pass_break, then its size here");
 _Static_assert(sizeof(CpsEnd) == 4 * 8, "add the new field to pass_end, then its size here");
@@ -306,6 +306,7 @@ static void pass_point(Tape *tape, CpsiPoint *point) {
     pass(tape, report->position, /* numbers */
          offsetof(CpsPointReport, obstacle) - offsetof(CpsPointReport, position));
     PASS(tape, point->dragged);
+    PASS(tape, point->surface);
     PASS(tape, point->on.reaction);
     PASS(tape, report->obstacle);
     PASS(tape, report->trial_count);
@@ -644,7 +645,7 @@ static void hash_points(uint64_t *hash, const CpsEvolution *evolution) {
         hash_bytes(hash, &kind, sizeof kind);
         hash_numbers(hash, 3, point->position);
         hash_numbers(hash, 3, point->force);
-        hash_numbers(hash, 2, (const double[2]){point->mass, point->displaced_mass});
+        hash_numbers(hash, 3, (const double[3]){point->mass, point->displaced_mass, point->extent});
         hash_numbers(hash, 1, &points->given[i].inertia);
         hash_numbers(hash, points->given[i].bearing_area > 0, &points->given[i].bearing_area);
         hash_numbers(hash, 3, points->given[i].velocity);

@@ -328,24 +328,6 @@ static CpsStatus prepare_move(CpsEvolution *evolution, CpsError *err) {
                : cpsi_fail(err, CPS_ERR_MEMORY, "out of memory for the state before a move");
 }
 
-/* In time free points do not bear on what gives. */
-static CpsStatus check_soft(const CpsEvolution *evolution, const CpsStage *move, const char *what,
-                            CpsError *err) {
-    int free = CPSI_NO_POINT, soft = CPS_NO_OBSTACLE;
-    for (int i = 0; i < evolution->points.count; i++)
-        if (evolution->points.point[i].kind == CPS_POINT_KIND_FREE) free = i;
-    for (int i = 0; i < move->point_change_count; i++)
-        if (move->point_change[i].kind == CPS_POINT_KIND_FREE) free = move->point_change[i].point;
-    for (int k = 0; k < evolution->obstacle_count; k++)
-        if (evolution->obstacle[k].stiffness > 0) soft = k;
-    if (free == CPSI_NO_POINT || soft == CPS_NO_OBSTACLE) return CPS_OK;
-    return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                     "%s: it has a duration, but obstacle '%s' gives (stiffness), on which no free "
-                     "point as '%s' bears in time: hold the point, or leave the duration out",
-                     what, evolution->given_obstacle[soft].name,
-                     evolution->points.point[free].name);
-}
-
 /* May a move have a duration? */
 static CpsStatus check_time(const CpsEvolution *evolution, const CpsStage *move, const char *what,
                             CpsError *err) {
@@ -365,7 +347,7 @@ static CpsStatus check_time(const CpsEvolution *evolution, const CpsStage *move,
                              "%s: it has a duration, but beside free points or bodies line '%s' "
                              "cannot stretch",
                              what, evolution->line[i].name);
-    return check_soft(evolution, move, what, err);
+    return CPS_OK;
 }
 
 CpsStatus cps_evolution_move(CpsEvolution *evolution, const CpsStage *move, CpsError *err) {
@@ -562,8 +544,10 @@ CpsPointReport cps_evolution_point_view(const CpsEvolution *evolution, int point
 
 CpsPointReport cps_evolution_point_report(const CpsEvolution *evolution, int point) {
     CpsPointReport report = cps_evolution_point_view(evolution, point);
-    if (point >= 0 && point < cps_evolution_point_count(evolution))
+    if (point >= 0 && point < cps_evolution_point_count(evolution)) {
         to_scene(evolution, report.position);
+        if (report.water != CPS_POINT_WATER_NONE) report.water_level += evolution->origin[2];
+    }
     return report;
 }
 

@@ -73,7 +73,7 @@ int cpsi_place_joints(CpsiBalance *balance, bool first) {
         memset(load, 0, sizeof load);
         if (!drags) {
             cpsi_point_load(point, evolution->gravity, load);
-            water = cpsi_water_at(&evolution->points, at->point, evolution->gravity, at->place.z);
+            water = cpsi_water_at(point, evolution->gravity, at->place);
             load[2] += water.displaced;
         }
         balance->joint_of[at->point] = k;

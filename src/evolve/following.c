@@ -195,7 +195,9 @@ static Rows rows_on_surface(const Following *f, int point, double size) {
     const double mu =
         stick || !f->is_static ? on->friction[0] * cpsi_obstacle_friction_factor(on, x) : 0;
     const double slip = vec3_norm(s), bound = follows ? mu * report->reaction : vec3_norm(friction),
-                 spring = gives ? cpsi_soft_point_stiffness(evolution, point, report->obstacle) : 0;
+                 spring =
+                     gives ? cpsi_soft_point_spring(evolution, point, report->obstacle, x).stiffness
+                           : 0;
     const bool rests = mu > 0 && (stick || !(slip > CPS_TOUCH * of->length));
     const CpsiObstacle level = cpsi_obstacle_within(on, gives ? cpsi_soft_way_depth(on, x) : 0);
     Rows out = rests ? held(size) : in_plane(size, n, s, mu > 0 ? bound : 0, turn_of(&level, slip));
@@ -252,8 +254,11 @@ static CpsStiffnessOutcome rows_of(const Following *f, int point, double size, R
                         evolution->points.given[point].holding_capacity, 1 / vec3_norm(s));
     } else if (report->water == CPS_POINT_WATER_FLOATING) {
         if (report->obstacle != CPS_NO_OBSTACLE) return CPS_STIFFNESS_OUTCOME_NOT_GIVEN;
-        out->p[2][2] = 0;
-        out->q[2][2] = size;
+        const Vec3 n = vec3_load(report->water_direction);
+        const double square = vec3_dot(n, n),
+                     spring = of->extent > 0 ? report->displaced / of->extent : 0;
+        if (!(of->extent > 0)) vec3_add_outer(out->p, -1 / square, n, n);
+        vec3_add_outer(out->q, of->extent > 0 ? spring : size / square, n, n);
     } else if (report->obstacle != CPS_NO_OBSTACLE) {
         *out = rows_on_surface(f, point, size);
     } else if (vec3_norm(vec3_load(report->friction)) > 0) {

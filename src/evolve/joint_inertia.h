@@ -18,10 +18,12 @@ typedef struct CpsiPointInertia {
     double before_velocity[3]; /* [m/s] v_{n-1}, likewise */
     bool bore;                 /* it touched an obstacle when the step began */
     bool landed;
+    bool crossed; /* it came to the surface of the water in the step, or left it */
     bool velocity_given;
     double given_velocity[3]; /* [m/s] after the step under way, with the flag */
     double error;             /* [m] of the step by its estimate (pace.h) */
     double kinetic;           /* [J] */
+    double afloat;            /* [J] by which the energy of its buoyancy grew in the step */
     CpsMotionLedger ledger;
 } CpsiPointInertia;
 

@@ -88,6 +88,20 @@ static double added_stiffness(const CpsiBalance *balance, double length) {
     return CPSI_REGULAR * (balance->force > 0 ? balance->force : 1) / length;
 }
 
+/* Add what the water opposes to floats with a height. */
+static void add_water(CpsiBalance *balance) {
+    for (int k = 0; k < balance->count; k++) {
+        const CpsiWater *water = &balance->at[k].water;
+        const CpsiGraphBlock own = cpsi_graph_matrix_block(balance->matrix, k, k);
+        double n[3];
+        const double stiffness = cpsi_water_stiffness(water);
+        if (!(stiffness > 0)) continue;
+        vec3_store(n, water->n);
+        for (size_t a = 0; a < 3; a++)
+            for (size_t b = 0; b < 3; b++) own.at[a * own.stride + b] += stiffness * n[a] * n[b];
+    }
+}
+
 /* Add the inertia of points and bodies, in a step in time. */
 static void add_inertia(CpsiBalance *balance) {
     const CpsEvolution *evolution = balance->evolution;
@@ -125,7 +139,7 @@ static void find_stiffness(CpsiBalance *balance) {
 
 /* Is the point to be on the obstacle after the step, or in one that gives? */
 static bool is_to_touch(const CpsiFree *at) {
-    const double gap = at->gives ? at->gap : fmax(at->gap, 0);
+    const double gap = at->gives ? at->over : fmax(at->gap, 0);
     return at->obstacle != CPS_NO_OBSTACLE && -vec3_dot(at->rest, at->normal) > at->stiffness * gap;
 }
 
@@ -170,7 +184,7 @@ static void add_normal(Equation *out, const CpsiFree *at) {
     if (at->gives && is_to_touch(at)) {
         vec3_add_outer(out->p, 1, n, n);
         vec3_add_outer(out->q, at->spring, n, n);
-        out->v = vec3_axpy(vec3_dot(at->rest, n) - at->spring * at->gap, n, out->v);
+        out->v = vec3_axpy(vec3_dot(at->rest, n) - at->spring * at->over, n, out->v);
     } else if (is_to_touch(at)) {
         vec3_add_outer(out->q, at->stiffness, n, n);
         out->v = vec3_axpy(-at->stiffness * at->gap, n, out->v);
@@ -226,14 +240,17 @@ static Equation equation_with(const CpsiFree *at, const CpsiObstacle *on, bool f
 /* rho times the height above the surface to which a buoyancy brings the point without its lines; it
  * rises with the buoyancy. */
 static double lifted_by(const CpsiFree *at, bool follows, double buoyancy) {
-    return at->stiffness * at->water.height + equation_with(at, NULL, follows, false, buoyancy).v.z;
+    const Vec3 v = equation_with(at, NULL, follows, false, buoyancy).v;
+    return at->stiffness * at->water.height + vec3_dot(v, at->water.n);
 }
 
 /* The buoyancy with which the step is to be taken: none above the water, all below it, or, where
- * the point is to float, that which brings it to the surface. */
+ * the point is to float, that which brings it to the surface; of a float with a height that of the
+ * place, which the matrix says how it changes. */
 static double buoyancy_of_step(const CpsiFree *at, bool follows, bool *floats) {
     double low = 0, high = at->water.displaced;
     *floats = false;
+    if (at->water.extent > 0) return at->water.buoyancy;
     if (!(high > 0) || lifted_by(at, follows, low) >= 0) return low;
     if (lifted_by(at, follows, high) <= 0) return high;
     *floats = true;
@@ -244,12 +261,13 @@ static double buoyancy_of_step(const CpsiFree *at, bool follows, bool *floats) {
     return high;
 }
 
-/* Replace the equation along c = P up by: the point goes to the surface. */
+/* Replace the equation along c = P n by: the point goes to the surface. */
 static void bring_to_surface(Equation *out, const CpsiFree *at) {
-    const double c[3] = {out->p[0][2], out->p[1][2], out->p[2][2]};
+    double v[3], e[3], n[3], c[3];
+    vec3_store(n, at->water.n);
+    for (int a = 0; a < 3; a++) c[a] = vec3_dot(vec3_load(out->p[a]), at->water.n);
     const double size = vec3_norm(vec3_load(c));
     if (!(size > 0)) return; /* friction holds it there */
-    double v[3], e[3];
     vec3_store(v, out->v);
     for (int a = 0; a < 3; a++) e[a] = c[a] / size;
     for (int j = 0; j < 3; j++) {
@@ -260,7 +278,7 @@ static void bring_to_surface(Equation *out, const CpsiFree *at) {
         }
         for (int a = 0; a < 3; a++) {
             out->p[a][j] -= e[a] * p;
-            out->q[a][j] += e[a] * ((j == 2 ? at->stiffness : 0) - q);
+            out->q[a][j] += e[a] * (at->stiffness * n[j] - q);
         }
     }
     const double along = e[0] * v[0] + e[1] * v[1] + e[2] * v[2];
@@ -422,6 +440,7 @@ static bool set_matrix(CpsiBalance *balance, bool turns) {
     for (int k = 0; k < evolution->obstacle_count; k++)
         any = any || evolution->obstacle[k].kind != CPS_OBSTACLE_PLANE;
     cpsi_fill_matrix(balance);
+    add_water(balance);
     add_inertia(balance);
     find_stiffness(balance);
     set_points(balance, turns && any);
@@ -524,10 +543,12 @@ void cpsi_limit_step(CpsiBalance *balance) {
 }
 
 /* Where an obstacle meets the surface of the water, near x. */
-static Vec3 along_the_waterline(const CpsiObstacle *on, double surface, Vec3 x) {
-    x.z = surface;
+static Vec3 along_the_waterline(const CpsiObstacle *on, const CpsiSurface *surface, Vec3 x) {
+    const Vec3 up = surface->n;
+    x = cpsi_surface_below(surface, x);
     for (int i = 0; i < NEWTON; i++) {
-        const Vec3 n = cpsi_obstacle_normal(on, x), level = vec3(n.x, n.y, 0);
+        const Vec3 n = cpsi_obstacle_normal(on, x),
+                   level = vec3_axpy(-vec3_dot(n, up) / vec3_dot(up, up), up, n);
         const double size = vec3_dot(level, level);
         if (size > 0) x = vec3_axpy(-cpsi_obstacle_gap(on, x) / size, level, x);
     }
@@ -546,10 +567,10 @@ static Vec3 place_within(const CpsiBalance *balance, const CpsiFree *from, bool 
     const CpsEvolution *evolution = balance->evolution;
     if (cpsi_is_to_stick(from) && share == 1)
         x = without_slip(&evolution->obstacle[from->obstacle], from->start, x);
-    if (from->water.displaced > 0)
-        x.z = floats && share == 1 ? evolution->points.surface
-                                   : cpsi_water_stop(&from->water, evolution->points.surface, x.z);
-    return x;
+    if (!(from->water.displaced > 0)) return x;
+    const CpsiSurface *surface = &evolution->points.point[from->point].surface;
+    return floats && share == 1 ? cpsi_surface_below(surface, x)
+                                : cpsi_water_stop(&from->water, surface, x);
 }
 
 /* The place of a point after a share of the step: out of every rigid obstacle, and on that on which
@@ -578,10 +599,10 @@ Vec3 cpsi_place_after(const CpsiBalance *balance, const CpsiFree *from, const do
             on->kind != CPS_OBSTACLE_PLANE && from->gap <= cpsi_trial_touch(balance, from);
         if (share == 1 || gap < 0 || stays) x = vec3_axpy(-gap, cpsi_obstacle_normal(on, x), x);
     }
-    if (from->water.displaced > 0 && !touches)
-        x.z = cpsi_water_stop(&from->water, evolution->points.surface, x.z);
+    const CpsiSurface *surface = &evolution->points.point[from->point].surface;
+    if (from->water.displaced > 0 && !touches) x = cpsi_water_stop(&from->water, surface, x);
     if (floats && touches && !sinks && share == 1)
-        x = along_the_waterline(&evolution->obstacle[from->obstacle], evolution->points.surface, x);
+        x = along_the_waterline(&evolution->obstacle[from->obstacle], surface, x);
     for (int k = 0; k < evolution->obstacle_count; k++) {
         if (evolution->obstacle[k].stiffness > 0) continue;
         const double gap = cpsi_obstacle_gap(&evolution->obstacle[k], x);

@@ -9,6 +9,8 @@
 #include "evolve/moving_ground.h"
 #include "evolve/pace.h"
 #include "evolve/points.h"
+#include "evolve/soft_point.h"
+#include "evolve/water.h"
 
 /* The end of a line with inertia that is at a point. */
 typedef struct LineEnd {
@@ -148,6 +150,11 @@ static bool bears_now(const CpsiPoint *point) {
     return point->kind == CPS_POINT_KIND_FREE && point->report.reaction > 0;
 }
 
+/* Does it bear on what is rigid? What gives slows a point down by its force alone. */
+static bool stops(const CpsEvolution *evolution, const CpsiPoint *point) {
+    return bears_now(point) && !(evolution->obstacle[point->report.obstacle].stiffness > 0);
+}
+
 /* Give v the part `rate` along the unit vector n. */
 static void stop_along(double v[3], Vec3 n, double rate) {
     vec3_store(v, vec3_axpy(rate - vec3_dot(vec3_load(v), n), n, vec3_load(v)));
@@ -160,9 +167,23 @@ static double energy_of_landing(double mass, const double v[3], Vec3 n, double g
     return 0.5 * mass * rate * rate;
 }
 
+/* What the water does to it: the energy of the buoyancy, what the scheme loses of that, which is
+ * not negative since the energy is convex, and what the surface does as it rises. */
+static void add_water(CpsiPoint *point) {
+    CpsiPointInertia *inertia = &point->inertia;
+    const CpsPointReport *report = &point->report;
+    const double height = cpsi_surface_height(&point->surface, vec3_load(point->position)),
+                 sunk = cpsi_surface_height(&point->surface, vec3_load(point->before)),
+                 before = point->height_before;
+    inertia->afloat = cpsi_water_energy(report->displaced, point->extent, height) -
+                      cpsi_water_energy(report->displaced, point->extent, before);
+    inertia->ledger.scheme -= report->buoyancy * (height - before) + inertia->afloat;
+    inertia->ledger.waves = report->buoyancy * (before - sunk);
+}
+
 /* The ledger of the step, by the values after it, before what bears is stopped. */
-static void close_ledger(const CpsEvolution *evolution, CpsiPoint *point,
-                         const double velocity[3]) {
+static void close_ledger(const CpsEvolution *evolution, int index, const double velocity[3]) {
+    CpsiPoint *point = &evolution->points.point[index];
     CpsiPointInertia *inertia = &point->inertia;
     CpsPointReport *report = &point->report;
     const Vec3 way = vec3_sub(vec3_load(point->position), vec3_load(point->before)),
@@ -170,22 +191,26 @@ static void close_ledger(const CpsEvolution *evolution, CpsiPoint *point,
                n = vec3_load(report->normal);
     const double gained = kinetic_energy(inertia->mass, velocity) - inertia->kinetic;
     CpsMotionLedger *ledger = &inertia->ledger;
-    *ledger = (CpsMotionLedger){.kinetic = gained};
-    ledger->scheme = -vec3_dot(vec3_load(report->inertia), way) - gained;
+    const double stored = cpsi_soft_point_growth(evolution, index);
+    *ledger =
+        (CpsMotionLedger){.kinetic = gained, .damping = cpsi_soft_point_damped(evolution, index)};
+    ledger->scheme = -vec3_dot(vec3_load(report->inertia), way) - gained - stored - ledger->damping;
+    ledger->turnover = fabs(stored);
+    add_water(point);
     report->dissipated = 0;
     if (bears_now(point)) {
         report->dissipated = -vec3_dot(vec3_load(report->friction), slip);
         ledger->scheme -= report->reaction * vec3_dot(n, slip);
-        ledger->impact = inertia->landed ? energy_of_landing(inertia->mass, inertia->velocity, n,
-                                                             cpsi_ground_rate(evolution, point))
-                                         : 0;
+        if (inertia->landed && stops(evolution, point))
+            ledger->impact = energy_of_landing(inertia->mass, inertia->velocity, n,
+                                               cpsi_ground_rate(evolution, point));
         ledger->scheme -= ledger->impact;
     }
 }
 
 static void add_turnover(const CpsPointReport *report, CpsMotionLedger *ledger) {
-    ledger->turnover = fabs(report->dissipated) + fabs(ledger->kinetic) + fabs(ledger->impact) +
-                       fabs(ledger->scheme);
+    ledger->turnover += fabs(report->dissipated) + fabs(ledger->kinetic) + fabs(ledger->impact) +
+                        fabs(ledger->scheme) + fabs(ledger->damping) + fabs(ledger->waves);
 }
 
 /* The end of a line follows its point; where that bears, and has been stopped along the normal, the
@@ -198,7 +223,7 @@ static void follow(const CpsEvolution *evolution, const LineEnd *end) {
     if (of->span[end->node] != inertia->span) return;
     const Vec3 n = vec3_load(end->point->report.normal);
     double *v = &of->velocity[3 * end->node], *v0 = &of->before_velocity[3 * end->node];
-    if (bears_now(end->point)) {
+    if (stops(evolution, end->point)) {
         const double rate = cpsi_ground_rate(evolution, end->point),
                      impact = inertia->landed ? energy_of_landing(mass, v0, n, rate) : 0,
                      lost = kinetic_energy(mass, v) - kinetic_energy(mass, inertia->velocity);
@@ -230,20 +255,20 @@ void cpsi_point_motion_advance(CpsEvolution *evolution) {
         CpsiPoint *point = &evolution->points.point[i];
         CpsiPointInertia *inertia = &point->inertia;
         const CpsPointReport *report = &point->report;
-        const bool bears = bears_now(point);
+        const bool bears = bears_now(point), stopped = stops(evolution, point);
         const Vec3 n = vec3_load(report->normal);
         double velocity[3];
         for (int a = 0; a < 3; a++)
             velocity[a] = (point->position[a] - inertia->reference[a]) / inertia->span;
         inertia->landed = bears && !inertia->bore;
-        inertia->error = error_of(evolution, point, bears ? n : vec3(0, 0, 0), velocity);
-        close_ledger(evolution, point, velocity);
+        inertia->error = error_of(evolution, point, stopped ? n : vec3(0, 0, 0), velocity);
+        close_ledger(evolution, i, velocity);
         memcpy(inertia->before, point->before, sizeof inertia->before);
         memcpy(inertia->before_velocity, inertia->velocity, sizeof inertia->before_velocity);
         memcpy(inertia->velocity, velocity, sizeof velocity);
         const double had = inertia->kinetic;
         inertia->kinetic = kinetic_energy(inertia->mass, velocity);
-        if (bears) {
+        if (stopped) {
             const Vec3 way = vec3_sub(vec3_load(point->position), vec3_load(point->before));
             const double rate = cpsi_ground_rate(evolution, point),
                          off = vec3_dot(way, n) - evolution->formula.length * rate;
@@ -258,7 +283,8 @@ void cpsi_point_motion_advance(CpsEvolution *evolution) {
         }
         add_turnover(report, &inertia->ledger);
         inertia->bore = bears;
-        inertia->restarts = inertia->landed;
+        inertia->restarts = inertia->landed || inertia->crossed ||
+                            cpsi_soft_point_is_crossed(evolution, i, vec3_load(point->position));
     }
     LineEnd end;
     for (int k = 0; k < 2 * evolution->line_count; k++)

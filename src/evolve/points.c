@@ -14,6 +14,7 @@
 #include "evolve/places.h"
 #include "evolve/ranges.h"
 #include "evolve/soft_check.h"
+#include "evolve/water.h"
 #include "geometry/obstacle.h"
 
 enum { POINT_COOKIE = 0x5017e005, MAX_POINTS = 100000 };
@@ -127,11 +128,6 @@ static CpsStatus check_point(const CpsScene *scene, const PointNames *names, int
                            "point '%s': force (%g, %g, %g) N and weight %g N, expected finite "
                            "numbers",
                            point->name, f[0], f[1], f[2], point->weight);
-    else if (!cpsi_is_usable(point->displaced_weight) || point->displaced_weight < 0)
-        status = cpsi_fail(err, CPS_ERR_ARGUMENT,
-                           "point '%s': it displaces water of %g N, expected a finite number, at "
-                           "least 0",
-                           point->name, point->displaced_weight);
     else if (point->kind == CPS_POINT_KIND_HELD && (f[0] != 0 || f[1] != 0 || f[2] != 0))
         status = cpsi_fail(err, CPS_ERR_ARGUMENT,
                            "point '%s': a force of (%g, %g, %g) N acts on it, but it is held: "
@@ -153,6 +149,7 @@ static CpsStatus check_point(const CpsScene *scene, const PointNames *names, int
                            point->name, depth_below(scene, length, at, true, &below), below);
     else if (point->kind == CPS_POINT_KIND_FREE || point->drags)
         status = cpsi_isotropy_check(scene, "point", point->name, err);
+    if (status == CPS_OK) status = cpsi_water_point_check(scene, point, err);
     if (status == CPS_OK) status = cpsi_anchor_check(scene, point, length, err);
     if (status == CPS_OK) status = cpsi_soft_point_check(scene, index, err);
     if (status == CPS_OK)
@@ -307,6 +304,8 @@ void cpsi_points_fill(CpsiPoints *points, const CpsScene *scene, const CpsScene 
         memcpy(point->before, point->position, sizeof point->before);
         memcpy(point->force, from->force, sizeof point->force);
         point->mass = pull > 0 ? from->weight / pull : 0;
+        point->extent = from->height;
+        point->surface = cpsi_surface_at_rest(points);
         if (scene->has_water_surface && pull > 0 && from->displaced_weight > 0) {
             point->mass = (from->weight + from->displaced_weight) / pull;
             point->displaced_mass = from->displaced_weight / pull;

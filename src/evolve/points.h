@@ -20,6 +20,12 @@ typedef struct CpsiPressed {
         off; /* [m] half elements of lines that touch the obstacle beside the point, or not */
 } CpsiPressed;
 
+/* The surface of the water about a point in a step: a place x is at the height n.(x - at) above it
+ * (water.h). */
+typedef struct CpsiSurface {
+    Vec3 at, n;
+} CpsiSurface;
+
 /* A point; positions are relative to the origin of the evolution. */
 typedef struct CpsiPoint {
     const char *name;
@@ -34,6 +40,9 @@ typedef struct CpsiPoint {
     double mass;            /* [kg] weight per gravity, in air where it may leave the water */
     double dragged;         /* [m] as an anchor, since the start */
     double displaced_mass;  /* [kg] of water; 0 where it cannot leave the water */
+    double extent;          /* [m] of the float, upwards */
+    CpsiSurface surface;    /* of the last step, or of the one under way */
+    double height_before;   /* [m] above that of the step before, where the step began */
     double length;          /* [m] of the longest line that ends here */
     double area;            /* [m2] with which it bears on what gives, in the step (soft_point.h) */
     CpsiEndSet on;          /* the set that it is held to as a free one */

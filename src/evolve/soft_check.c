@@ -46,22 +46,6 @@ static bool is_ever_free(const CpsScene *scene, int index) {
     return free;
 }
 
-CpsStatus cpsi_soft_time_check(const CpsScene *scene, CpsError *err) {
-    const CpsObstacle *soft = cpsi_soft_obstacle(scene);
-    const CpsPoint *free = NULL;
-    for (int i = 0; i < scene->point_count && !free; i++)
-        if (is_ever_free(scene, i)) free = &scene->point[i];
-    if (!soft || !free) return CPS_OK;
-    return cpsi_fail_inside(
-        err,
-        CPSI_FAIL_AT("stiffness", err, CPS_ERR_ARGUMENT,
-                     "obstacle '%s': stiffness: it gives, but the history is in time, in which "
-                     "no free point as '%s' bears on what gives: hold the point, or leave the "
-                     "stiffness or the durations out",
-                     soft->name, free->name),
-        "obstacles.%s", soft->name);
-}
-
 /* The area of a point does not follow what a winch there pays out. */
 static CpsStatus check_winch(const CpsScene *scene, int index, CpsError *err) {
     const CpsObstacle *soft = cpsi_soft_obstacle(scene);

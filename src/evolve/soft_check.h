@@ -9,8 +9,6 @@
 const CpsObstacle *cpsi_soft_obstacle(const CpsScene *scene);
 /* Can obstacle `o` give as the scene says, beside all else that the scene has? */
 CpsStatus cpsi_soft_obstacle_check(const CpsScene *scene, const CpsObstacle *o, CpsError *err);
-/* In a history in time: no free point bears on what gives. */
-CpsStatus cpsi_soft_time_check(const CpsScene *scene, CpsError *err);
 /* Is the bearing area of a point one that an obstacle meets? */
 CpsStatus cpsi_soft_point_check(const CpsScene *scene, int index, CpsError *err);
 /* Has line i the width that it needs, and a start that says nothing of its reactions? */

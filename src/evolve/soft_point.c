@@ -2,6 +2,8 @@
 /* Free points on obstacles that give (soft_point.h). */
 #include "evolve/soft_point.h"
 
+#include <math.h>
+
 #include "geometry/obstacle.h"
 
 /* How many obstacles that give there are, or that a place lies in. */
@@ -36,6 +38,43 @@ double cpsi_soft_point_stiffness(const CpsEvolution *evolution, int index, int o
                : evolution->obstacle[on].stiffness * evolution->points.point[index].area;
 }
 
+CpsiSoft cpsi_soft_point_spring(const CpsEvolution *evolution, int index, int on, Vec3 from) {
+    const CpsiObstacle *obstacle = &evolution->obstacle[on];
+    const double own = cpsi_soft_point_stiffness(evolution, index, on);
+    if (!(obstacle->damping > 0) || !(evolution->interval > 0)) return (CpsiSoft){own, 0};
+    const double viscous = own * (obstacle->damping / obstacle->stiffness) /
+                           evolution->points.point[index].inertia.span,
+                 all = own + viscous, past = fmax(0, -cpsi_obstacle_gap(obstacle, from));
+    return (CpsiSoft){all, all > 0 ? viscous / all * past : 0};
+}
+
+/* [m] How deep a place lies in an obstacle. */
+static double depth_in(const CpsiObstacle *on, Vec3 place) {
+    return fmax(0, -cpsi_obstacle_gap(on, place));
+}
+
+/* Where the point was when the step began, on obstacle k as it is now. */
+static Vec3 place_before(const CpsEvolution *evolution, int index, int k) {
+    return cpsi_shift_carry(&evolution->shift[k], vec3_load(evolution->points.point[index].before));
+}
+
+/* Is it borne by obstacles? */
+static bool may_bear(const CpsiPoint *point) {
+    return point->kind == CPS_POINT_KIND_FREE && !point->on.is_there;
+}
+
+bool cpsi_soft_point_is_crossed(const CpsEvolution *evolution, int index, Vec3 place) {
+    bool crossed = false;
+    if (!may_bear(&evolution->points.point[index])) return false;
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        const CpsiObstacle *on = &evolution->obstacle[k];
+        if (!(on->stiffness > 0)) continue;
+        const double was = depth_in(on, place_before(evolution, index, k));
+        crossed = crossed || (depth_in(on, place) > 0) != (was > 0);
+    }
+    return crossed;
+}
+
 /* The obstacle in which a place lies deepest, and how deep [m]; CPS_NO_OBSTACLE: it lies in none,
  * then 0. `before`: before the obstacles took the motion of the step. */
 static int deepest(const CpsEvolution *evolution, Vec3 place, bool before, double *depth) {
@@ -67,14 +106,20 @@ static double stored_at(const CpsEvolution *evolution, int index, Vec3 place, bo
     return 0.5 * cpsi_soft_point_stiffness(evolution, index, on) * depth * depth;
 }
 
-double cpsi_soft_point_growth(const CpsEvolution *evolution) {
-    const CpsiPoints *points = &evolution->points;
-    double sum = 0;
-    for (int i = 0; i < points->count; i++) {
-        const CpsiPoint *point = &points->point[i];
-        if (point->kind != CPS_POINT_KIND_FREE || point->on.is_there) continue;
-        sum += stored_at(evolution, i, vec3_load(point->position), false) -
-               stored_at(evolution, i, vec3_load(point->before), true);
-    }
-    return sum;
+double cpsi_soft_point_growth(const CpsEvolution *evolution, int index) {
+    const CpsiPoint *point = &evolution->points.point[index];
+    if (!may_bear(point)) return 0;
+    return stored_at(evolution, index, vec3_load(point->position), false) -
+           stored_at(evolution, index, vec3_load(point->before), true);
+}
+
+double cpsi_soft_point_damped(const CpsEvolution *evolution, int index) {
+    const CpsiPoint *point = &evolution->points.point[index];
+    double now;
+    const int on = deepest(evolution, vec3_load(point->position), false, &now);
+    if (!may_bear(point) || on == CPS_NO_OBSTACLE || !(evolution->obstacle[on].damping > 0))
+        return 0;
+    const double was = depth_in(&evolution->obstacle[on], place_before(evolution, index, on));
+    return (point->report.reaction - cpsi_soft_point_stiffness(evolution, index, on) * now) *
+           (now - was);
 }

@@ -246,14 +246,14 @@ static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage
         const bool held = change->kind == CPS_POINT_KIND_HELD;
         if (portion->part == 0) {
             const bool was_free = point->kind == CPS_POINT_KIND_FREE;
-            const double lift = cpsi_buoyancy_at(points, point, evolution->gravity_from);
             double pushed[3];
-            vec3_store(pushed, cpsi_soft_point_push(evolution, change->point));
+            vec3_store(pushed, vec3_add(cpsi_buoyancy_at(point, evolution->gravity_from),
+                                        cpsi_soft_point_push(evolution, change->point)));
             for (int a = 0; a < 3; a++) {
-                const double load = was_free ? point->force[a]
-                                             : point->report.support[a] -
-                                                   point->mass * evolution->gravity_from[a] -
-                                                   (a == 2 ? lift : 0) - pushed[a];
+                const double load = was_free
+                                        ? point->force[a]
+                                        : point->report.support[a] -
+                                              point->mass * evolution->gravity_from[a] - pushed[a];
                 point->from[a] = held ? point->position[a] : load;
             }
             point->kind = change->kind;

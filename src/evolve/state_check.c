@@ -205,6 +205,12 @@ static bool is_body_motion(const CpsiBodyInertia *inertia) {
     return sound;
 }
 
+static bool is_surface(const CpsiSurface *surface) {
+    const Vec3 at = surface->at, n = surface->n;
+    return isfinite(at.x) && isfinite(at.y) && isfinite(at.z) && isfinite(n.x) && isfinite(n.y) &&
+           isfinite(n.z) && n.z > 0;
+}
+
 static bool is_point(const CpsiPoint *point, int obstacles) {
     const CpsPointReport *report = &point->report;
     return within(point->kind, CPS_POINT_KIND_HELD, CPS_POINT_KIND_ON_BODY) &&
@@ -215,10 +221,10 @@ static bool is_point(const CpsiPoint *point, int obstacles) {
            all_finite(point->from, 3) && all_finite(point->before, 3) &&
            all_finite(point->move, 3) && all_finite(report->support, 3) &&
            all_finite(&report->reaction, 1) && all_finite(&report->buoyancy, 1) &&
-           all_finite(&report->displaced, 1) && all_finite(&report->capacity_used, 1) &&
-           all_finite(&report->uplift_used, 1) && all_finite(report->drag, 3) &&
-           all_finite(&report->dragged, 1) && all_finite(&point->dragged, 1) &&
-           is_point_motion(&point->inertia);
+           all_finite(&report->displaced, 1) && is_surface(&point->surface) &&
+           all_finite(&report->capacity_used, 1) && all_finite(&report->uplift_used, 1) &&
+           all_finite(report->drag, 3) && all_finite(&report->dragged, 1) &&
+           all_finite(&point->dragged, 1) && is_point_motion(&point->inertia);
 }
 
 static bool is_body(const CpsiBody *body) {

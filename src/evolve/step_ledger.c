@@ -50,15 +50,20 @@ static double work_on_point(const CpsEvolution *evolution, const CpsiPoint *poin
                               vec3_load(report->friction)));
 }
 
-/* [J] of load and weight on a point, or of what holds it beside an obstacle that moves. */
+/* [J] of load, weight and buoyancy on a point, by the energy of the latter, or of what holds it
+ * beside an obstacle that moves. */
 static double work_outside(const CpsEvolution *evolution, int index) {
     const CpsiPoint *point = &evolution->points.point[index];
     const CpsPointReport *report = &point->report;
     Vec3 force = vec3(0, 0, 0);
-    if (point->kind == CPS_POINT_KIND_FREE) force = vec3_load(report->load);
+    double afloat = 0;
+    if (point->kind == CPS_POINT_KIND_FREE) {
+        force = vec3_load(report->load);
+        afloat = point->inertia.afloat;
+    }
     if (point->kind == CPS_POINT_KIND_HELD)
         force = vec3_axpy(report->reaction, vec3_load(report->normal), vec3_load(report->support));
-    const double work = vec3_dot(force, way_of_point(evolution, index));
+    const double work = vec3_dot(force, way_of_point(evolution, index)) - afloat;
     return point->kind == CPS_POINT_KIND_HELD ? work - work_on_point(evolution, point) : work;
 }
 
@@ -80,7 +85,7 @@ static double work_on_body(const CpsEvolution *evolution, const CpsiBody *body) 
     return work + vec3_dot(vec3_add(moment, vec3_load(&support[3])), turn);
 }
 
-/* Friction of the points, the work of the obstacles under them, and what these have stored. */
+/* Friction of the points, and the work of the obstacles under them. */
 static double add_points(const CpsEvolution *evolution, CpsStepReport *step) {
     double pushed = 0;
     for (int i = 0; i < evolution->points.count; i++) {
@@ -90,10 +95,14 @@ static double add_points(const CpsEvolution *evolution, CpsStepReport *step) {
         pushed += work_on_point(evolution, &evolution->points.point[i]);
     }
     step->ledger.obstacles += pushed;
-    const double stored = cpsi_soft_point_growth(evolution);
-    step->ledger.elastic += stored;
-    step->ledger.ends += stored; /* the forces at points do the work */
     return pushed;
+}
+
+/* [J] What obstacles that give have stored more under points. */
+static double stored_below(const CpsEvolution *evolution) {
+    double sum = 0;
+    for (int i = 0; i < evolution->points.count; i++) sum += cpsi_soft_point_growth(evolution, i);
+    return sum;
 }
 
 /* [J] What lines at points get of these; they keep it, and what the scheme loses. */
@@ -106,7 +115,7 @@ static double work_inside(const CpsEvolution *evolution) {
 }
 
 static double spent_by(const CpsMotionLedger *ledger) {
-    return ledger->kinetic + ledger->impact + ledger->scheme;
+    return ledger->kinetic + ledger->impact + ledger->scheme + ledger->damping;
 }
 
 static void add_in_time(const CpsEvolution *evolution, double pushed, CpsStepReport *step) {
@@ -117,6 +126,7 @@ static void add_in_time(const CpsEvolution *evolution, double pushed, CpsStepRep
         const CpsiPoint *point = &evolution->points.point[i];
         outside += work_outside(evolution, i);
         spent += point->report.dissipated + spent_by(&point->inertia.ledger);
+        water += point->inertia.ledger.waves;
     }
     for (int i = 0; i < evolution->bodies.count; i++) {
         const CpsiBody *body = &evolution->bodies.body[i];
@@ -134,9 +144,10 @@ static void add_in_time(const CpsEvolution *evolution, double pushed, CpsStepRep
 
 void cpsi_step_ledger(const CpsEvolution *evolution, CpsStepReport *step) {
     const double dissipated = step->ledger.dissipated;
-    const double pushed = add_points(evolution, step);
+    const double pushed = add_points(evolution, step), stored = stored_below(evolution);
+    step->ledger.elastic += stored;
     if (evolution->interval > 0)
-        add_in_time(evolution, pushed, step);
-    else /* the forces at points do the work of their friction */
-        step->ledger.ends += step->ledger.dissipated - dissipated - pushed;
+        add_in_time(evolution, pushed - stored, step);
+    else /* the forces at points do the work of their friction, and what is stored */
+        step->ledger.ends += step->ledger.dissipated - dissipated - pushed + stored;
 }

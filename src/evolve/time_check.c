@@ -10,7 +10,6 @@
 #include "evolve/body_motion_check.h"
 #include "evolve/radiation.h"
 #include "evolve/ranges.h"
-#include "evolve/soft_check.h"
 
 bool cpsi_is_in_time(const CpsScene *scene) {
     bool any = scene->in_time;
@@ -146,13 +145,6 @@ static CpsStatus check_point(const CpsScene *scene, int index, bool in_time, Cps
                             "point '%s': drags: a step of the history has a duration, in which "
                             "anchors do not drag: leave it out",
                             point->name);
-    if (scene->has_water_surface && point->displaced_weight > 0)
-        return CPSI_FAIL_AT("volume", err, CPS_ERR_ARGUMENT,
-                            "point '%s': volume: a step of the history has a duration, in which "
-                            "points do not float at a water surface: leave 'water_surface' out, "
-                            "and the point is always under water, or give its weight in water in "
-                            "place of the volume",
-                            point->name);
     return moves(v, 3) ? check_first_step(scene, "point", point->name, err) : CPS_OK;
 }
 
@@ -192,8 +184,7 @@ static CpsStatus check_points(const CpsScene *scene, bool in_time, CpsError *err
         if (status != CPS_OK) return cpsi_fail_inside(err, status, "bodies.%s", body->name);
     }
     if (!in_time || !may_be_free(scene)) return CPS_OK;
-    const CpsStatus status = cpsi_soft_time_check(scene, err);
-    return status == CPS_OK ? check_beside_free(scene, err) : status;
+    return check_beside_free(scene, err);
 }
 
 CpsStatus cpsi_time_check(const CpsScene *scene, CpsError *err) {

@@ -203,8 +203,11 @@ void cpsi_trial_find_obstacle(const CpsEvolution *evolution, CpsiFree *at) {
      * the stiffness is known */
     if (cpsi_vec3_is_zero(vec3_sub(at->place, at->start))) at->slip = vec3(0, 0, 0);
     at->gives = on->stiffness > 0;
-    at->spring = cpsi_soft_point_stiffness(evolution, at->point, at->obstacle);
-    if (at->gives) find_slip_within(on, before, at);
+    if (!at->gives) return;
+    const CpsiSoft soft = cpsi_soft_point_spring(evolution, at->point, at->obstacle, before);
+    at->spring = soft.stiffness;
+    at->over = at->gap + soft.rest;
+    find_slip_within(on, before, at);
 }
 
 /* [m] A point that is no farther from an obstacle, or has slid no farther, touches it, or is at
@@ -271,7 +274,7 @@ static void find_touch(const CpsiBalance *balance, CpsiFree *at) {
     at->left = at->rest;
     if (at->obstacle == CPS_NO_OBSTACLE) return;
     if (at->gives)
-        at->reaction = at->spring * fmax(0, -at->gap);
+        at->reaction = at->spring * fmax(0, -at->over);
     else if (at->gap <= touch)
         at->reaction = fmax(0, -vec3_dot(at->rest, at->normal));
     at->bound = at->friction * (balance->follows ? at->reaction : point->reaction_before);
@@ -295,12 +298,14 @@ static void find_contact(const CpsiBalance *balance, CpsiFree *at) {
     }
     double range[2], stiffness = at->stiffness;
     cpsi_water_range(&at->water, cpsi_trial_touch(balance, at), range);
-    find_touch_with(balance, at, fmin(fmax(-at->rest.z, range[0]), range[1]));
+    const Vec3 n = at->water.n;
+    const double holds = -vec3_dot(at->rest, n) / vec3_dot(n, n);
+    find_touch_with(balance, at, fmin(fmax(holds, range[0]), range[1]));
     if (range[0] == range[1] || (at->reaction == 0 && at->bound == 0)) return;
     for (int i = 0; i < BISECTIONS; i++) {
         at->stiffness = stiffness;
         find_touch_with(balance, at, 0.5 * (range[0] + range[1]));
-        range[at->left.z < 0 ? 0 : 1] = at->water.buoyancy;
+        range[vec3_dot(at->left, n) < 0 ? 0 : 1] = at->water.buoyancy;
     }
 }
 
@@ -482,7 +487,8 @@ void cpsi_read_forces(CpsiBalance *balance) {
         }
         cpsi_point_load(&evolution->points.point[at->point], evolution->gravity, load);
         at->rest = vec3_load(load);
-        at->water = cpsi_water_at(&evolution->points, at->point, evolution->gravity, at->place.z);
+        at->water =
+            cpsi_water_at(&evolution->points.point[at->point], evolution->gravity, at->place);
         count_force(balance, vec3_norm(at->rest));
         balance->acting = fmax(balance->acting, at->water.displaced);
         if (evolution->interval > 0) add_point_inertia(balance, at);

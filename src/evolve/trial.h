@@ -28,8 +28,8 @@ typedef struct CpsiFree {
     /* at the nearest obstacle, where there is one */
     int obstacle;
     double gap, friction, bound, reaction;
-    bool gives;               /* that obstacle does (soft_point.h): R = `spring` max(0, -gap) */
-    double spring;            /* [N/m] */
+    bool gives;               /* that obstacle does (soft_point.h): R = `spring` max(0, -over) */
+    double spring, over;      /* [N/m]; [m] by how much it is above where the spring begins */
     Vec3 normal, slip, force; /* force: F */
     bool drags;               /* an anchor: in a plane across `normal`, within its bound */
     CpsiWater water;          /* whose buoyancy is in `rest` */
@@ -41,7 +41,7 @@ typedef struct CpsiFree {
 
 /* `rest` with another buoyancy. */
 static inline Vec3 cpsi_rest_with(const CpsiFree *at, double buoyancy) {
-    return vec3(at->rest.x, at->rest.y, at->rest.z + (buoyancy - at->water.buoyancy));
+    return vec3_axpy(buoyancy - at->water.buoyancy, at->water.n, at->rest);
 }
 
 /* A free body in a trial: what acts on it, and what of that nothing balances. */

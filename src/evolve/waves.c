@@ -55,9 +55,11 @@ static CpsStatus check_scene(const CpsScene *scene, CpsError *err) {
         any = any || (!scene->line[i].quasi_static && cpsi_has_drag(scene, &scene->line[i]));
     for (int i = 0; i < scene->body_count; i++)
         any = any || scene->body[i].excitation_count > 0 || scene->body[i].member_count > 0;
+    for (int i = 0; i < scene->point_count; i++) any = any || scene->point[i].displaced_weight > 0;
     if (!any)
         return CPSI_FAIL_AT("waves", err, CPS_ERR_ARGUMENT,
-                            "waves: they act on lines with drag that are not quasi_static and on "
+                            "waves: they act on lines with drag that are not quasi_static, on "
+                            "points with a volume and on "
                             "bodies with excitation or members, and there is none: give one, or "
                             "leave the waves out");
     return CPS_OK;

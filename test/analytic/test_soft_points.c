@@ -292,36 +292,6 @@ static void what_bears_on_nothing_is_refused(void **unused) {
     refuse(&c, "a winch beside it holds its end at no point");
 }
 
-/* Steps in time: refused where a point is free, or is made free before. */
-static void not_in_time(void **unused) {
-    (void)unused;
-    Clump c;
-    make(&c, 3, 0.3);
-    for (int i = 0; i < 2; i++) c.line[i].quasi_static = true;
-    c.point[2].inertia = WEIGHT / 9.81;
-    c.scene.in_time = true;
-    refuse(&c, "no free point as 'clump' bears on what gives");
-    c.point[2].kind = CPS_POINT_KIND_HELD;
-    c.point[2].bearing_area = 0;
-    CpsEvolution *evolution = evolve(&c);
-    CpsError err;
-    (void)step(evolution, 2);
-    const CpsPointChange change = {.point = 2, .kind = CPS_POINT_KIND_FREE};
-    CpsStage move = cps_stage_default();
-    move.point_change_count = 1;
-    move.point_change = &change;
-    for (int k = 0; k < 2; k++) {
-        move.duration = 1;
-        assert_int_equal(cps_evolution_move(evolution, &move, &err), CPS_ERR_ARGUMENT);
-        if (!strstr(err.message, "no free point as 'clump' bears in time"))
-            fail_msg("'%s'", err.message);
-        move.duration = 0; /* and the second time it is free already */
-        if (cps_evolution_move(evolution, &move, &err) != CPS_OK) fail_msg("%s", err.message);
-        move.point_change_count = 0;
-    }
-    cps_evolution_destroy(evolution);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_clump_sinks),
@@ -331,7 +301,6 @@ int main(void) {
         cmocka_unit_test(the_bed_lifts_a_clump),
         cmocka_unit_test(a_held_clump_is_let_go),
         cmocka_unit_test(what_bears_on_nothing_is_refused),
-        cmocka_unit_test(not_in_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,6 +63,10 @@ int compare_pace(Compare *compare);
 /* The velocities that stages give at the end of their step. 0, or -1 after one sentence. */
 int compare_velocities(Compare *compare);
 
+/* The waves of the file are those of the scene. */
+struct Sea;
+void compare_waves(Compare *compare, const struct Sea *sea);
+
 /* Springs, given loads and drag, after a step. */
 void compare_node_loads(Compare *compare, const CpsLine *line, const Record *r, size_t step);
 

@@ -20,6 +20,7 @@
 #include "loads.h"
 #include "oscillation.h"
 #include "record.h"
+#include "sea.h"
 #include "soft.h"
 #include "water.h"
 
@@ -480,6 +481,28 @@ static void compare_points_at(Compare *compare, size_t step, ImposedPoint *impos
     compare_water(compare, step, imposed, g);
 }
 
+/* What floats, and the waves about it. */
+static void compare_heights(Compare *compare) {
+    Sea sea;
+    double *height = calloc(compare->source.points + 1, sizeof *height);
+    if (!height || water_heights(&compare->source, height, compare->log)) {
+        find(compare, "height_of_point");
+        free(height);
+        return;
+    }
+    for (int k = 0; k < compare->scene->point_count; k++) {
+        const CpsPoint *point = &compare->scene->point[k];
+        same_number(compare, "height_of_point", point->name, height[k],
+                    compare->scene->has_water_surface ? point->height : 0);
+    }
+    free(height);
+    if (sea_read(&compare->source, &sea, compare->log))
+        find(compare, "waves");
+    else
+        compare_waves(compare, &sea);
+    sea_free(&sea);
+}
+
 /* Names, kinds and weights; and what is imposed at first. */
 static void compare_given_points(Compare *compare, ImposedPoint *imposed) {
     const Source *source = &compare->source;
@@ -490,6 +513,7 @@ static void compare_given_points(Compare *compare, ImposedPoint *imposed) {
         gives = gives || scene->obstacle[k].stiffness > 0;
     Anchor *anchor = calloc(source->points, sizeof *anchor);
     double *area = calloc(source->points, sizeof *area);
+    compare_heights(compare);
     if (!anchor || !area || anchors_open(source, anchor, compare->log) ||
         soft_areas_read(source, area, compare->log)) {
         find(compare, "holding_capacity_of_point, or bearing_area_of_point");

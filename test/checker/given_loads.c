@@ -105,8 +105,7 @@ static void compare_drag(Compare *compare, const CpsLine *line, const Loads *loa
     }
 }
 
-/* The waves of the file are those of the scene. */
-static void compare_waves(Compare *compare, const Sea *sea) {
+void compare_waves(Compare *compare, const Sea *sea) {
     static const Real TAU = 6.283185307179586476925286766559L;
     const CpsCurrent *current = compare->scene->current;
     const CpsWaves *waves = current ? current->waves : NULL;

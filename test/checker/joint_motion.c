@@ -22,7 +22,7 @@
 
 /* Rounding of places, per largest coordinate; of rotations; of forces and energies, per sizes. */
 static const double PLACES = 1e-13, TURNS = 1e-13, FORCES = 1e-10, ENERGIES = 1e-9, SUMS = 1e-14;
-/* Roundings of coordinates in a difference of places that are turned. */
+/* Roundings of coordinates in a depth, and in a difference of places that are turned. */
 static const double ROUNDINGS = 16;
 enum { SIMPSON = 64 };
 
@@ -95,6 +95,7 @@ int point_motions_read(const Source *source, size_t step, PointMotion *all, FILE
         read_all(source, "ledger_impact_of_point", s, n, 1, &all->impact, each) ||
         read_all(source, "ledger_scheme_of_point", s, n, 1, &all->scheme, each) ||
         read_all(source, "ledger_settling_of_point", s, n, 1, &all->settling, each) ||
+        read_all(source, "ledger_damping_of_point", s, n, 1, &all->damped, each) ||
         read_flags(source, "velocity_given_of_point", step, n, &all->velocity_given, each))
         return complain(log, "points");
     return 0;
@@ -183,7 +184,7 @@ static void check_past(const PointSteps *s, Real back, MotionFind *find, void *u
     const PointMotion *m = s->motion;
     const double noise = PLACES * s->reach;
     Real place = 0, velocity = 0;
-    if (s->before->state != POINT_STICK && s->before->state != POINT_SLIP) return;
+    if (!s->was_stopped) return;
     for (int a = 0; a < 3; a++) {
         place += ((Real)m->reference[a] - s->before->position[a]) * s->before->normal[a];
         velocity += (Real)m->rest_velocity[a] * s->before->normal[a];
@@ -198,7 +199,7 @@ static void check_past(const PointSteps *s, Real back, MotionFind *find, void *u
 static void check_point_scheme(const PointSteps *s, MotionFind *find, void *user) {
     const PointMotion *m = s->motion;
     const Real back = formula_of(m->span, s->h, s->h_before).back;
-    const bool euler = !(back > 0), bore = s->before->reaction > 0;
+    const bool euler = !(back > 0), bore = s->was_stopped;
     if (!euler && !s->older) return;
     Real place[3], velocity[3];
     for (int a = 0; a < 3; a++) {
@@ -236,7 +237,7 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
     const Formula formula = formula_of(m->span, s->h, s->h_before);
     check_span(m->span, &formula, find, user);
     const double noise = 4 * PLACES * s->reach * m->mass / (m->span * m->span) + 1e-300;
-    const bool bears = s->is_free && s->now->reaction > 0;
+    const bool bears = s->is_stopped;
     Real v[3], off[3], work = 0, sizes = 0, rounding = 0;
     for (int a = 0; a < 3; a++) {
         v[a] = ((Real)s->now->position[a] - m->reference[a]) / m->span;
@@ -260,6 +261,8 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
     compare("growth of the kinetic energy", m->growth, kinetic - s->motion_before->kinetic,
             ENERGIES * (kinetic + s->motion_before->kinetic) + 1e-300, find, user);
     if (!(m->impact >= 0)) find(user, "energy lost by impact", m->impact, 0);
+    if (!bears || s->was_stopped)
+        compare("energy lost by impact of what does not land", m->impact, 0, 0, find, user);
     if (!s->is_free) return;
     for (int a = 0; a < 3; a++) {
         const Real way = (Real)s->now->position[a] - s->before->position[a];
@@ -270,13 +273,22 @@ void point_motion_check(const PointSteps *s, MotionFind *find, void *user) {
         sizes += fabsl(force * way) + fabsl(push);
         rounding += SUMS * s->largest * fabsl(way);
     }
+    work += s->waves - s->afloat;
+    sizes += fabsl(s->waves) + fabsl(s->afloat);
+    rounding += SUMS * s->reach * s->buoyancy; /* of its height, in the energy of its buoyancy */
+    compare("energy lost to the damping of what gives", m->damped, (double)s->soft.damped,
+            ENERGIES * fabs(m->damped) + PLACES * s->reach * (double)s->soft.slope + 1e-300, find,
+            user);
     /* the ways of point and ground, which may be one, are differences of places */
     if (size(s->ground) > 0)
         rounding +=
             ROUNDINGS * DBL_EPSILON * s->reach * (size(s->now->friction) + s->now->reaction);
-    const double spent = s->now->dissipated + m->growth + m->impact + m->scheme;
+    const double spent =
+        s->now->dissipated + m->growth + m->impact + m->scheme + m->damped + (double)s->soft.stored;
     sizes += fabs(s->now->dissipated) + fabs(m->growth) + m->impact + fabs(m->scheme) +
+             fabs(m->damped) + fabsl(s->soft.stored) +
              PLACES * s->reach * (size(s->now->lines) + size(s->now->load));
+    rounding += ROUNDINGS * DBL_EPSILON * s->reach * s->soft.presses;
     compare("ledger, work of lines and load", (double)work, spent,
             ENERGIES * (double)sizes + (double)rounding, find, user);
 }

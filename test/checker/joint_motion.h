@@ -5,11 +5,12 @@
 #define CAPSTAN_CHECKER_JOINT_MOTION_H
 
 #include "bodies.h"
+#include "soft.h"
 
 /* A point after a step; all 0 in a file without steps in time. */
 typedef struct PointMotion {
     Vector inertia, velocity, reference, rest_velocity;
-    double mass, span, kinetic, growth, impact, scheme, settling;
+    double mass, span, kinetic, growth, impact, scheme, settling, damped;
     int velocity_given; /* by the caller of the step; x* is then the place from which it leads */
 } PointMotion;
 
@@ -38,10 +39,16 @@ typedef struct PointSteps {
     const PointMotion *motion, *motion_before, *motion_older;
     double h, h_before, reach; /* [s] lengths of steps; [m] of the largest coordinate */
     double largest;            /* [N] force in the lines, which may cancel at the point */
+    /* [J] by which the energy of its buoyancy has grown, and what the waves did, by the checker;
+     * [N] the buoyancy */
+    Real afloat, waves;
+    double buoyancy;
     /* of what it touches: the way in the step, and the velocity along the normal, also before */
     double ground[3];         /* [m] */
     double rate, rate_before; /* [m/s] */
     bool is_free;
+    bool is_stopped, was_stopped; /* by something rigid on which it bears; in the step before */
+    SoftWork soft;                /* of what gives below it */
 } PointSteps;
 void point_motion_check(const PointSteps *steps, MotionFind *find, void *user);
 

@@ -109,8 +109,8 @@ static int add_lines(const Source *source, const char *line, StepError *out, FIL
 
 /* ---- points ---- */
 
-static void add_point(const Junction *at, const PointMotion *motion, const PointMotion *before,
-                      const Lengths *of, StepError *out) {
+static void add_point(const Source *source, const Junction *at, const PointMotion *motion,
+                      const PointMotion *before, const Lengths *of, StepError *out) {
     Velocities v;
     Real off[3], along = 0;
     double reach = 0;
@@ -122,7 +122,8 @@ static void add_point(const Junction *at, const PointMotion *motion, const Point
         reach = fmax(reach, fabs(at->position[a]));
     }
     error_of(of, &v, off);
-    if (at->state != POINT_ON_BODY && at->reaction > 0)
+    if (at->state != POINT_ON_BODY && at->reaction > 0 &&
+        !(source->surface[at->obstacle].gives > 0))
         for (int a = 0; a < 3; a++) along += off[a] * at->normal[a];
     for (int a = 0; a < 3; a++) off[a] -= along * at->normal[a];
     raise_to(out, size_of(off), size_of(off), reach);
@@ -141,7 +142,7 @@ static int add_points(const Source *source, StepError *out, FILE *log) {
         for (size_t k = 0; k < n; k++) {
             const Lengths of = {step_length_of(source, s), step_length_of(source, s - 1),
                                 at[k].span};
-            add_point(&now[k], &at[k], &before[k], &of, &out[s]);
+            add_point(source, &now[k], &at[k], &before[k], &of, &out[s]);
         }
     }
     free(now);

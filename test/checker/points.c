@@ -5,9 +5,9 @@
  * free point, or the support of a held one; and of an obstacle that it touches the reaction R along
  * the normal and friction F:
  *
- *     lines + load + support + R n + F + S + buoyancy = residual,    R >= 0,  |F| <= mu R
+ *     lines + load + support + R n + F + S + B m = residual,    R >= 0,  |F| <= mu R
  *
- * S is the reaction of a set that the point is held to (sets.h).
+ * S is the reaction of a set that the point is held to (sets.h), B m the buoyancy (floats.h).
  * It sticks, or slides by s on the obstacle, which may turn meanwhile, and then mu R |s| + F.s
  * vanishes, and so does |s| F + mu R s. The second falls with the angle between friction and slip,
  * the first with its square. */
@@ -15,16 +15,17 @@
 
 #include <float.h>
 #include <math.h>
+#include <netcdf.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdlib.h>
 
 #include "anchors.h"
+#include "floats.h"
 #include "formula.h"
 #include "groups.h"
 #include "joint_motion.h"
 #include "sets.h"
-#include "soft.h"
 #include "water.h"
 
 /* Sums of a few numbers of the file, per largest force; a balance, in tolerances of the step: what
@@ -43,9 +44,12 @@ typedef struct Points {
     double *rate, *rate_before;     /* (points) [m/s] of what each touches, along the normal */
     PointMotion *motion, *motion_before, *motion_older; /* (points) */
     Water *water;                                       /* (points) of the step */
-    Anchor *anchor;                                     /* (points) */
-    PointSets *sets;                                    /* NULL: none */
-    bool *gives; /* (points) of the step: it floats, or is an anchor that drags */
+    Afloat *afloat, *afloat_before;                     /* (points) the surfaces about them */
+    double *height;                                     /* (points) [m] of what floats */
+    Sea sea;
+    Anchor *anchor;  /* (points) */
+    PointSets *sets; /* NULL: none */
+    bool *gives;     /* (points) of the step: it floats, or is an anchor that drags */
     Bodies bodies;
     BodyState *body; /* (bodies) of the step */
     double *dragged; /* (points) [m] before the step */
@@ -125,7 +129,9 @@ static void check_lines(const Points *p, const Junction *at) {
 
 static void check_balance(const Points *p, const Junction *at) {
     Real sum[3];
-    const Real up[3] = {0, 0, p->water[p->point].buoyancy};
+    const Water *water = &p->water[p->point];
+    Real up[3];
+    for (int k = 0; k < 3; k++) up[k] = water->buoyancy * p->afloat[p->point].n[k];
     for (int k = 0; k < 3; k++)
         sum[k] = (Real)at->lines[k] + at->load[k] + at->support[k] + at->friction[k] +
                  (Real)at->reaction * at->normal[k] + up[k] + p->motion[p->point].inertia[k];
@@ -223,12 +229,23 @@ static void check_anchor(const Points *p, const Junction *at) {
             fabs(at->dissipated - fmax(0, -dot(along, anchor->drag))), noise * (far + way));
 }
 
+/* The surface about it is that of the waves, or at rest. */
+static void check_surface(const Points *p, const Junction *at) {
+    const Water *water = &p->water[p->point];
+    const Afloat *surface = &p->afloat[p->point];
+    const double reach = size(at->position) + p->length[p->point], place = PLACES * reach;
+    at_most(p, "direction of the water's force, off", apart(water->direction, surface->n), NORMALS);
+    at_most(p, "level of the water, off",
+            fabs(water->level - (double)floats_level(surface, at->position)), place);
+}
+
 /* A free point with a displaced weight has all of it as buoyancy below the surface, none above it,
- * and any part of it at the surface. */
+ * and any part of it at the surface; with a height what of that is in the water. */
 static void check_water(const Points *p, const Junction *at) {
     const Water *water = &p->water[p->point];
     const double place = PLACES * (p->length[p->point] + size(at->position)),
-                 height = at->position[2] - p->surface;
+                 height = (double)floats_height(&p->afloat[p->point], at->position),
+                 extent = p->height[p->point];
     const bool is_in = p->has_surface && at->state != POINT_HELD && water->displaced > 0;
     at_most(p, "weight of displaced water below 0", -water->displaced, 0);
     if (is_in != (water->state != WATER_NONE))
@@ -237,20 +254,83 @@ static void check_water(const Points *p, const Junction *at) {
         at_most(p, "buoyancy of a point that does not float", fabs(water->buoyancy), 0);
         return;
     }
-    const double least = height < -place ? water->displaced : 0,
-                 most = height > place ? 0 : water->displaced;
-    at_most(p, "buoyancy above what its place allows", water->buoyancy - most, SUMS * p->largest);
-    at_most(p, "buoyancy below what its place demands", least - water->buoyancy, SUMS * p->largest);
+    Real share[2];
+    floats_wet(extent, height, place, share);
+    const double noise = SUMS * p->largest + (extent > 0 ? water->displaced * place / extent : 0);
+    check_surface(p, at);
+    at_most(p, "buoyancy above what its place allows",
+            water->buoyancy - (double)share[1] * water->displaced, noise);
+    at_most(p, "buoyancy below what its place demands",
+            (double)share[0] * water->displaced - water->buoyancy, noise);
     if (water->state == WATER_FLOATING)
-        at_most(p, "distance from the surface", fabs(height), place);
-    if (water->state == WATER_SUBMERGED && height > place)
+        at_most(p, "distance from the surface", fabs(height), 0.5 * extent + place);
+    if (water->state == WATER_SUBMERGED && height > place - 0.5 * extent)
         find(p, "it is said to be submerged %.6g m above the surface", height);
-    if (water->state == WATER_ABOVE && height < -place)
+    if (water->state == WATER_ABOVE && height < 0.5 * extent - place)
         find(p, "it is said to be above the water %.6g m below the surface", -height);
 }
 
+/* What the water has done to it in a step in time: the surface has risen from where it was to where
+ * it is, both above the place where the point was. */
+static void add_water(const Points *p, PointSteps *steps) {
+    const Water *water = &p->water[p->point];
+    if (p->step == 0 || !(water->displaced > 0) || !steps->is_free || !(steps->motion->span > 0))
+        return;
+    const Real extent = p->height[p->point],
+               before = floats_height(&p->afloat_before[p->point], steps->before->position),
+               sunk = floats_height(&p->afloat[p->point], steps->before->position),
+               now = floats_height(&p->afloat[p->point], steps->now->position);
+    steps->afloat = floats_energy(water->displaced, extent, now) -
+                    floats_energy(water->displaced, extent, before);
+    steps->waves = water->buoyancy * (before - sunk);
+    steps->buoyancy = water->displaced;
+}
+
+/* The share of the step for which an obstacle carries the reference along. */
+static double share_of(const Points *p) {
+    const double span = p->motion[p->point].span, h = step_length_of(p->source, p->step);
+    return span > 0 ? span / h : 1;
+}
+
+/* Where ground has taken what friction is measured from. In the matter of the ground a place is
+ * where that has come to at the end of the step, and the slip is (y - y*) there, by the scheme: of
+ * the place when the step began, y_n, and by a parabola of the one before as well, which follows
+ * from x* = x_n + b (x_n - x_{n-1}). The ground moves steadily in both steps. */
+static void carry_reference(const Points *p, const Surface *on, Real out[3]) {
+    const PointMotion *motion = &p->motion[p->point];
+    const Junction *before = &p->before[p->point];
+    const double h = step_length_of(p->source, p->step),
+                 turn = p->line[0].turn[on - p->source->surface];
+    const double h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0;
+    const Real back = motion->span > 0 ? formula_of(motion->span, h, h_before).back : 0;
+    Real last[3], first[3], y[2][3];
+    widen(before->position, last);
+    surface_carry(on, last, 1, turn, y[0]);
+    for (int a = 0; a < 3; a++) out[a] = y[0][a];
+    if (!(back > 0)) return;
+    for (int a = 0; a < 3; a++) first[a] = last[a] - (motion->reference[a] - last[a]) / back;
+    surface_carry(on, first, 1 + (Real)h_before / h, turn, y[1]);
+    for (int a = 0; a < 3; a++) out[a] += back * (y[0][a] - y[1][a]);
+}
+
+/* What a surface that gives opposes to a free point. Where the first step of the file began is not
+ * in it; it is an Euler step, from its reference. */
+static SoftPush push_of(const Points *p, const Surface *surface, const Junction *at) {
+    const PointMotion *motion = &p->motion[p->point];
+    Real x[3], from[3], carried[3];
+    widen(at->position, x);
+    widen(motion->reference, from);
+    if (p->step == 0)
+        surface_carry(surface, from, 1, p->line[0].turn[surface - p->source->surface], carried);
+    else
+        carry_reference(p, surface, carried);
+    return soft_point_push(surface,
+                           soft_point_area(p->source, p->line, p->point, p->area[p->point]), x,
+                           carried, motion->span);
+}
+
 /* In what gives a held point bears on what holds it, and one in a set has no place. Another free
- * point has the reaction of a spring of the one in which it lies deepest. */
+ * point has the reaction of spring and damping of the one in which it lies deepest. */
 static void check_soft(const Points *p, const Junction *at) {
     const Source *source = p->source;
     const double place = PLACES * (p->length[p->point] + size(at->position)),
@@ -271,17 +351,19 @@ static void check_soft(const Points *p, const Junction *at) {
         if (touched && (is_held(at) || in_set))
             find(p, "what gives is said to bear a point that is held");
         if (is_held(at) || (in_set && !at->has_place)) continue;
-        const double stiff =
-            (double)soft_point_stiffness(source, p->line, p->point, p->area[p->point], surface);
+        const SoftPush push = push_of(p, surface, at);
+        const double force = (double)push.force, stiff = (double)push.steep;
         if (!touched && at->obstacle < 0)
-            at_most(p, "depth in what gives but does not press", stiff > 0 || in_set ? depth : 0,
+            at_most(p, "depth in what gives but does not press",
+                    in_set      ? depth
+                    : stiff > 0 ? force / stiff
+                                : 0,
                     place);
         else if (!touched)
             at_most(p, "depth in another obstacle, beside that in which it lies",
                     depth + (double)surface_distance(&source->surface[at->obstacle], x), place);
         else
-            at_most(p, "reaction against that of the depth",
-                    fabs(at->reaction - stiff * fmax(0, depth)),
+            at_most(p, "reaction against that of the depth", fabs(at->reaction - force),
                     SUMS * p->largest + stiff * copied);
     }
 }
@@ -331,12 +413,6 @@ static double bound_of(const Points *p, const Junction *at) {
     return mu * (p->source->consistent ? at->reaction : p->before[p->point].reaction);
 }
 
-/* The share of the step for which an obstacle carries the reference along. */
-static double share_of(const Points *p) {
-    const double span = p->motion[p->point].span, h = step_length_of(p->source, p->step);
-    return span > 0 ? span / h : 1;
-}
-
 /* [m] The way of what a point touches, there, in a step in time: from where its matter was. */
 static void ground_way(const Points *p, const Junction *at, double way[3]) {
     for (int a = 0; a < 3; a++) way[a] = 0;
@@ -348,27 +424,6 @@ static void ground_way(const Points *p, const Junction *at, double way[3]) {
     widen(at->position, x);
     surface_uncarry(on, x, 1, turn, was);
     for (int a = 0; a < 3; a++) way[a] = (double)(x[a] - was[a]);
-}
-
-/* Where ground has taken what friction is measured from. In the matter of the ground a place is
- * where that has come to at the end of the step, and the slip is (y - y*) there, by the scheme: of
- * the place when the step began, y_n, and by a parabola of the one before as well, which follows
- * from x* = x_n + b (x_n - x_{n-1}). The ground moves steadily in both steps. */
-static void carry_reference(const Points *p, const Surface *on, Real out[3]) {
-    const PointMotion *motion = &p->motion[p->point];
-    const Junction *before = &p->before[p->point];
-    const double h = step_length_of(p->source, p->step),
-                 turn = p->line[0].turn[on - p->source->surface];
-    const double h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0;
-    const Real back = motion->span > 0 ? formula_of(motion->span, h, h_before).back : 0;
-    Real last[3], first[3], y[2][3];
-    widen(before->position, last);
-    surface_carry(on, last, 1, turn, y[0]);
-    for (int a = 0; a < 3; a++) out[a] = y[0][a];
-    if (!(back > 0)) return;
-    for (int a = 0; a < 3; a++) first[a] = last[a] - (motion->reference[a] - last[a]) / back;
-    surface_carry(on, first, 1 + (Real)h_before / h, turn, y[1]);
-    for (int a = 0; a < 3; a++) out[a] += back * (y[0][a] - y[1][a]);
 }
 
 /* [m/s] How fast the surface itself moves there along its normal: a turn about its own axis moves
@@ -454,6 +509,11 @@ double rounding_in_line(const Record *line) {
 static void find_acting(Points *p) {
     for (size_t i = 0; i < p->source->points; i++) {
         const Anchor *anchor = &p->anchor[i];
+        const PointMotion *motion = &p->motion[i];
+        /* m ((x - x*)/k - v*)/k rounds as x does, which short steps magnify */
+        if (motion->span > 0)
+            p->rounding = fmax(p->rounding, ROUNDINGS * DBL_EPSILON * size(p->now[i].position) *
+                                                motion->mass / (motion->span * motion->span));
         p->acting = fmax(p->acting, fmax(size(p->now[i].load), p->water[i].displaced));
         if (anchor->drags) p->acting = fmax(p->acting, anchor->capacity);
     }
@@ -467,6 +527,21 @@ static void find_acting(Points *p) {
 
 static void find_in_time(void *user, const char *what, double said, double expected) {
     find(user, "%s: %.9g, expected %.9g", what, said, expected);
+}
+
+/* Does a free point bear on something rigid? What gives stops none. */
+static bool is_stopped(const Points *p, const Junction *at) {
+    return !is_held(at) && at->reaction > 0 && at->obstacle >= 0 &&
+           !(p->source->surface[at->obstacle].gives > 0);
+}
+
+/* What gives below a point, in a step that is not the first of the file. */
+static SoftWork soft_work_of(const Points *p, const Junction *at) {
+    if (p->step == 0 || is_held(at) || point_sets_has(p->sets, p->point))
+        return (SoftWork){0, 0, 0, 0};
+    const Real area = soft_point_area(p->source, p->line, p->point, p->area[p->point]);
+    return soft_point_work(p->source, area, p->before[p->point].position, at->position,
+                           at->reaction);
 }
 
 /* The motion of a point, and that the ends of lines there move with it. */
@@ -488,8 +563,15 @@ static void check_motion(Points *p) {
                         .largest = p->largest,
                         .rate = p->rate[p->point],
                         .rate_before = p->rate_before[p->point],
-                        .is_free = !is_held(at)};
+                        .is_free = !is_held(at),
+                        .is_stopped = is_stopped(p, at),
+                        .was_stopped = p->step > 0 && is_stopped(p, &p->before[p->point]),
+                        .soft = soft_work_of(p, at)};
     ground_way(p, at, steps.ground);
+    add_water(p, &steps);
+    if (p->step > 0)
+        at_most(p, "work of the waves, off", fabs(p->water[p->point].waves - (double)steps.waves),
+                1e-9 * (double)fabsl(steps.waves) + 1e-12 * reach * steps.buoyancy);
     point_motion_check(&steps, find_in_time, p);
     for (size_t i = 0; i < 2 * p->source->lines; i++) {
         const Record *r = &p->line[i / 2];
@@ -509,8 +591,23 @@ static void check_motion(Points *p) {
     }
 }
 
+/* The surfaces about the points in the step. */
+static void find_surfaces(Points *p) {
+    const Source *source = p->source;
+    double time = 0;
+    int id;
+    const bool waves = p->sea.waves > 0 && nc_inq_varid(source->nc, "time", &id) == NC_NOERR &&
+                       nc_get_var1_double(source->nc, id, &p->step, &time) == NC_NOERR;
+    for (size_t k = 0; k < source->points; k++)
+        p->afloat[k] =
+            waves && p->motion[k].span > 0
+                ? floats_in_waves(&p->sea, -(Real)source->gravity[2], time, &p->motion[k])
+                : floats_at_rest(p->surface);
+}
+
 static void check_step(Points *p) {
     const Source *source = p->source;
+    find_surfaces(p);
     p->largest = p->acting = p->rounding = 0;
     p->certified = false;
     for (size_t i = 0; i < source->points; i++)
@@ -571,6 +668,9 @@ static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
         if (groups_check(&at, log)) return -1;
         Junction *swap = p->older;
         PointMotion *swap_motion = p->motion_older;
+        Afloat *swap_afloat = p->afloat_before;
+        p->afloat_before = p->afloat;
+        p->afloat = swap_afloat;
         p->older = p->before;
         p->before = p->now;
         p->now = swap;
@@ -626,12 +726,17 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     p.dragged = calloc(source->points, sizeof *p.dragged);
     p.area = calloc(source->points, sizeof *p.area);
     p.has_surface = water_surface(source, &p.surface);
+    p.afloat = calloc(source->points, sizeof *p.afloat);
+    p.afloat_before = calloc(source->points, sizeof *p.afloat_before);
+    p.height = calloc(source->points, sizeof *p.height);
     int bad = !p.line || !p.water || !p.rate || !p.rate_before || !p.now || !p.before || !p.older ||
                       !p.motion || !p.motion_before || !p.motion_older || !p.length
                   ? -1
                   : open_lines(&p, log);
     if (!bad) bad = !p.anchor || !p.dragged ? -1 : anchors_open(source, p.anchor, log);
     if (!bad) bad = !p.area ? -1 : soft_areas_read(source, p.area, log);
+    if (!bad) bad = !p.afloat || !p.afloat_before || !p.height ? -1 : 0;
+    if (!bad) bad = water_heights(source, p.height, log) || sea_read(source, &p.sea, log) ? -1 : 0;
     p.gives = calloc(source->points, sizeof *p.gives);
     if (!bad) bad = p.gives ? open_bodies(source, &p.bodies) : -1;
     int unread;
@@ -657,6 +762,10 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     free(p.anchor);
     free(p.dragged);
     free(p.area);
+    free(p.afloat);
+    free(p.afloat_before);
+    free(p.height);
+    sea_free(&p.sea);
     point_sets_free(p.sets);
     return bad;
 }

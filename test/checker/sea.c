@@ -81,6 +81,22 @@ void sea_free(Sea *sea) {
     sea->wave = NULL;
 }
 
+Real sea_growth(const Sea *sea, Real time) {
+    return time < sea->ramp ? (1 - cosl(TAU / 2 * time / sea->ramp)) / 2 : 1;
+}
+
+/* The pressure of the moving water, rho dP/dt, is that of the water above the surface at rest. */
+Real sea_elevation(const Sea *sea, Real time, const Real *x) {
+    Real sum = 0;
+    for (size_t i = 0; i < sea->waves; i++) {
+        const Wave *w = &sea->wave[i];
+        const Real way =
+            w->heading[0] * (x[0] + sea->origin[0]) + w->heading[1] * (x[1] + sea->origin[1]);
+        sum += w->amplitude * cosl(w->number * way - w->frequency * time + w->phase);
+    }
+    return sea_growth(sea, time) * sum;
+}
+
 void sea_motion(const Sea *sea, Real time, const Real *x, Real *velocity, Real *acceleration) {
     Real u[3] = {0, 0, 0}, a[3] = {0, 0, 0};
     Real z = x[2] - sea->surface, grown = 1, growth = 0;

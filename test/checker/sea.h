@@ -22,6 +22,12 @@ Real sea_number(Real frequency, Real g, Real depth);
 int sea_read(const Source *source, Sea *out, FILE *log);
 void sea_free(Sea *sea);
 
+/* [-] What part of the waves there is at a time. */
+Real sea_growth(const Sea *sea, Real time);
+
+/* [m] By how much the waves lift the surface above x. */
+Real sea_elevation(const Sea *sea, Real time, const Real *x);
+
 /* Add the velocity of the water at a time in the place x of the file's coordinates, and its
  * acceleration. */
 void sea_motion(const Sea *sea, Real time, const Real *x, Real *velocity, Real *acceleration);

@@ -60,8 +60,7 @@ int soft_areas_read(const Source *source, double *area, FILE *log) {
     return good ? 0 : complain(log, NAME);
 }
 
-Real soft_point_stiffness(const Source *source, const Record *line, size_t point, double area,
-                          const Surface *surface) {
+Real soft_point_area(const Source *source, const Record *line, size_t point, double area) {
     Real all = area;
     for (size_t i = 0; i < source->lines; i++)
         for (int e = 0; e < 2; e++) {
@@ -69,7 +68,60 @@ Real soft_point_stiffness(const Source *source, const Record *line, size_t point
             if (r->end_point[e] == (int)point)
                 all += (Real)r->bearing_width * r->element_length[e == 0 ? 0 : r->elements - 1] / 2;
         }
-    return surface->gives * all;
+    return all;
+}
+
+SoftPush soft_point_push(const Surface *surface, Real area, const Real *x, const Real *reference,
+                         double span) {
+    const Real deep = -surface_distance(surface, x);
+    SoftPush out = {.force = area * surface->gives * deep, .steep = area * surface->gives};
+    if (surface->damps > 0 && span > 0) {
+        const Real c = area * surface->damps / span,
+                   past = fmaxl(0, -surface_distance(surface, reference));
+        out.force += c * (deep - past);
+        out.steep += c;
+    }
+    if (!(deep > 0) || out.force < 0) out.force = 0;
+    return out;
+}
+
+/* The surface in which x lies deepest, and how deep; NULL: it lies in none. `moved`: x is carried
+ * along first, by the motion of each in the step. */
+static const Surface *deepest(const Source *source, const Real *x, bool moved, Real *depth) {
+    const Surface *found = NULL;
+    *depth = 0;
+    for (size_t k = 0; k < source->surfaces; k++) {
+        Real at[3];
+        surface_shift(&source->surface[k], x, moved ? 1 : 0, at);
+        const Real d = -surface_distance(&source->surface[k], at);
+        if (!(d > *depth)) continue;
+        *depth = d;
+        found = &source->surface[k];
+    }
+    return found;
+}
+
+SoftWork soft_point_work(const Source *source, Real area, const double *from, const double *to,
+                         double reaction) {
+    Real x[3], was_at[3], moved[3], now, was;
+    for (int a = 0; a < 3; a++) {
+        x[a] = to[a];
+        was_at[a] = from[a];
+    }
+    const Surface *on = deepest(source, x, false, &now),
+                  *before = deepest(source, was_at, true, &was);
+    SoftWork out = {0, 0, 0, 0};
+    const Real pushes = on ? area * on->gives * now : 0,
+               pushed = before ? area * before->gives * was : 0;
+    out.stored = pushes * now / 2 - pushed * was / 2;
+    out.presses = pushes + pushed;
+    if (!on || !(on->damps > 0)) return out;
+    surface_shift(on, was_at, 1, moved);
+    const Real sunk = now - fmaxl(0, -surface_distance(on, moved));
+    const Real beyond = reaction - pushes;
+    out.damped = beyond * sunk;
+    out.slope = fabsl(beyond) + area * on->gives * fabsl(sunk);
+    return out;
 }
 
 /* [N/m] */

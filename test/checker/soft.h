@@ -12,10 +12,24 @@ int soft_read(const Source *source, size_t k, Surface *surface, FILE *log);
 int soft_create(const Source *source, const char *line, Record *record, FILE *log);
 /* [m2] The bearing areas of the points (points) themselves; 0 where nothing gives. */
 int soft_areas_read(const Source *source, double *area, FILE *log);
-/* [N/m] What a surface that gives opposes to a point of this area at which these lines of a step
- * end: of each the half of its last element bears there, with its width. */
-Real soft_point_stiffness(const Source *source, const Record *line, size_t point, double area,
-                          const Surface *surface);
+/* [m2] With what a point of this area bears at which these lines of a step end: of each the half of
+ * its last element besides, with its width. */
+Real soft_point_area(const Source *source, const Record *line, size_t point, double area);
+/* What a surface opposes to a free point with so much in all, at x: k d + c d' per area, in a step
+ * in time by the velocity from the reference, which begins in the ground or on it; never a pull. */
+typedef struct SoftPush {
+    Real force, steep; /* [N], [N/m] by its derivative */
+} SoftPush;
+SoftPush soft_point_push(const Surface *surface, Real area, const Real *x, const Real *reference,
+                         double span);
+/* [J] What gives below a free point that was at `from`: by how much it has stored more, in each
+ * place in that in which it lies deepest; and what its damping took, with this reaction. */
+typedef struct SoftWork {
+    Real stored, damped;
+    Real presses, slope; /* [N] by which they change with the depths */
+} SoftWork;
+SoftWork soft_point_work(const Source *source, Real area, const double *from, const double *to,
+                         double reaction);
 
 /* What is below node j, `distance` above it along the normal n, where the reference was `gap`, with
  * the force R: its energy, the conjugate of that at R, and their sum plus R x distance, each >= 0.

@@ -52,6 +52,8 @@ ACCEPTED = [
     ([(ADDED, matrix(e00=200, e22=100, e04=5, e40=5, e44=50))], "history: 1 entry"),
     ([(DAMPING, matrix(e00=5, e01=3, e10=-3))], "history: 1 entry"),
     ([("mass: 500", "weight: 5000")], "history: 1 entry"),
+    ([("points:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30,", "water_density: 1000\nwater_surface: 0\npoints:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30, volume: 0.02, height: 1,")], "history: 1 entry"),
+    ([("friction: 0.5}, drum", "friction: 0.5, stiffness: 1e4, damping: 100}, drum")], "history: 1 entry"),
     ([("duration: 2, time_step: 0.1", "steps: 2")], "history: 1 entry, 2 load steps in all\n"),
     ([("time_step: 0.1", "time_step: 0.1, drum.turn: 10, bed.obstacle: {move: [1, 0, 0]}")], "history: 1 entry, 20 load steps in all, 2 s in time"),
     ([("    free: [0, 0, 0]\n", "    held: [0, 0, 0]\n"), ("    velocity: [1, 0, 0]\n    turn_rate: [0, 0, 1]\n", ""), ("    mass: 500\n", "    mass: 0\n")], "history: 1 entry"),
@@ -92,9 +94,8 @@ CHANGES = [
     ("an obstacle that is no obstacle", "time_step: 0.1", "time_step: 0.1, reel.turn: 10", "24:48: 'reel.turn': there is no such obstacle under 'obstacles'"),
     ("a static start of what moves", "start: {straight: {from: [0, 0, -50], to: [0, 0, -20]}}", "start: static", "18:52: point 'knot': velocity: lines that start static are at rest after the first step"),
     ("an anchor that drags", "anchor: {held: [0, 0, -50]}", "anchor: {held: [0, 0, -50], holding_capacity: 10, drags: true}", "17:53: point 'anchor': drags: a step of the history has a duration, in which anchors do not drag"),
-    ("a bed that gives", "friction: 0.5}, drum", "friction: 0.5, stiffness: 1e4}, drum",
-     "3:63: obstacle 'bed': stiffness: it gives, but the history is in time, in which no free point as 'knot' bears on what gives: hold the point"),
-    ("a point at the water surface", "points:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30,", "water_density: 1000\nwater_surface: 0\npoints:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30, volume: 0.02,", "20:39: point 'knot': volume: a step of the history has a duration, in which points do not float at a water surface"),
+    ("a height of what displaces nothing", "points:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30,", "water_density: 1000\nwater_surface: 0\npoints:\n  anchor: {held: [0, 0, -50]}\n  knot: {free: [0, 0, -20], mass: 30, volume: 0, height: 1,", "20:50: point 'knot': height: it is that of what floats, but the point displaces no water: give its volume, or leave the height out"),
+    ("waves that act on nothing", "points:\n", "water_density: 1000\nwater_surface: 0\nwaves: {depth: .inf, components: [{amplitude: 1, period: 9, direction: 0}]}\npoints:\n", "18:1: waves: they act on lines with drag that are not quasi_static, on points with a volume and on bodies with excitation or members, and there is none: give one, or leave the waves out"),
 ]
 
 

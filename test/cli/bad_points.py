@@ -38,7 +38,7 @@ HELD = "  anchor: {held: [0, 0, 0]}\n"
 KNOT = "{free: [10, 0, 0], force: [1, 2, 3], weight: 50}"
 PULL = "  - {name: pull, knot.point: {force: [1, 0, 0]}}\n"
 RISER = "ends: {A: {point: knot}, B: {point: buoy}}"
-LIST = "a mapping with held, free, body, at, force, on, mass, weight, volume, holding_capacity, uplift_limit, drags"
+LIST = "a mapping with held, free, body, at, force, on, mass, weight, volume, height, holding_capacity, uplift_limit, drags"
 
 # name, what is replaced in GOOD, by what, expected after "FILE:"
 CHANGES = [
@@ -63,6 +63,11 @@ CHANGES = [
     ("a volume beside a weight", "weight: 50", "weight: 50, volume: 5", "5:58: 'volume': it goes with 'mass', which is not given"),
     ("a negative mass", "weight: 50", "mass: -5", "5:46: 'mass': found '-5', expected a number in kg, at least 0"),
     ("a negative volume", "weight: 50", "mass: 5, volume: -1", "5:55: 'volume': found '-1', expected a number in m3, at least 0"),
+    ("a height without a volume", "weight: 50", "mass: 5, height: 2", "5:55: 'height': it goes with 'volume', which is not given"),
+    ("a negative height", "weight: 50", "mass: 5, volume: 1, height: -2", "5:66: 'height': found '-2', expected a number in m, at least 0"),
+    ("an endless height", "weight: 50", "mass: 5, volume: 1, height: .inf", "5:66: 'height': found '.inf', expected a number in m"),
+    ("a height of what never floats", "weight: 50", "mass: 5, volume: 1, height: 2",
+     "5:66: point 'knot': height: it is that of what floats, but the water has no surface: give water_surface, or leave the height out"),
     ("a weight without gravity", "capstan: 1\n", "gravity: [0, 0, 0]\ncapstan: 1\n", "6:3: point 'knot': it has a weight or a buoyancy, but gravity is zero and has no direction: give the scene a gravity"),
     ("a weight in words", "weight: 50", "weight: heavy", "5:46: 'weight': found 'heavy', expected a number in N"),
     ("a point twice", HELD, HELD + HELD, "5:3: key 'anchor' is given twice, first in line 4: keep one"),
@@ -167,6 +172,8 @@ ACCEPTED = [
      "surface of the water at z = 7 m\nobstacle bed"),
     ([("weight: 50", "mass: 50, volume: 0.15"), ("capstan: 1\n", WATER[1] + "water_surface: 7\n")],
      "buoy of 981 N, displaces water of 1471.5 N, force"),
+    ([("weight: 50", "mass: 50, volume: 0.15, height: 0.5"), ("capstan: 1\n", WATER[1] + "water_surface: 7\n")],
+     "buoy of 981 N, displaces water of 1471.5 N over a height of 0.5 m, force"),
     ([("{held: [0, 0, 0]}", "{held: [0, 0, 0], weight: 5}")], "point anchor: held at (0, 0, 0) m, clump of 5 N\n"),
     ([("friction: 0.5", "friction: 0.5, stiffness: 1e4"), ("weight: 50}", "weight: 50, bearing_area: 0.25}"), ("{length: 11,", "{length: 11, bearing_width: 0.1,"),
       ("    length: 8\n", "    length: 8\n    bearing_width: 0.1\n"), ("{length: 9,", "{length: 9, bearing_width: 0.1,")],

@@ -83,7 +83,7 @@ def heave(capstan, checker, folder):
         assert abs(order - 2) < 0.1 and errors[2] < size*w0*15*(w0*0.025)**2/3, errors
     at = text.index("    excitation:")
     code, said = command(capstan, "check", write(folder, "none.yaml", text[:at] + text[text.index("points:"):]))
-    assert code == 3 and "waves: they act on lines with drag that are not quasi_static and on bodies with excitation or members, and there is none: give one" in said, said
+    assert code == 3 and "waves: they act on lines with drag that are not quasi_static, on points with a volume and on bodies with excitation or members, and there is none: give one" in said, said
     for index in (2, 4):
         falsify(found, folder, "load_of_body", found.steps - 9, index, 1e-3)
         code, said = command(checker, os.path.join(folder, "copy.nc"), scene)

@@ -52,7 +52,7 @@ history:
   - {name: aside, steps: 8, east.B: {move: [0, 20, 0]}, north.B: {move: [0, -20, 0]}, west.B: {move: [0, 20, 0]}}
   - {name: home, steps: 8, east.B: {move: [-12, -20, 0]}, north.B: {move: [-12, 20, 0]}, west.B: {move: [-12, -20, 0]}}
 """
-# points and a body in time, then at rest: added mass, damping, a member and a line in waves, oscillating loads, a line without inertia, a clump that lands and slides
+# points, one of which displaces water, and a body in time, then at rest: added mass, damping, a member and a line in waves, oscillating loads, a line without inertia, a clump that lands and slides
 IN_TIME = """capstan: 1
 gravity: [0, 0, -9.81]
 water_density: 1025
@@ -65,7 +65,7 @@ bodies:
 points:
   left: {body: float, at: [-1, 0.2, -1]}
   right: {body: float, at: [1, 0, -1]}
-  knot: {free: [9, 0, -9], mass: 60, velocity: [0.2, 0.5, 0]}
+  knot: {free: [9, 0, -9], mass: 60, volume: 0.02, height: 0.5, velocity: [0.2, 0.5, 0]}
   clump: {free: [14, 3, -19.99], mass: 80, velocity: [0.6, 0.8, -0.4]}
 lines:
   a: {length: 22.07, elements: 10, mass: 4, stiffness: 1e5, quasi_static: true, start: {straight: {from: [-12, 1, -20], to: [-1.208334883627139, -0.1350230755365901, -0.7494635268526606]}}, ends: {A: {held: [-12, 1, -20]}, B: {point: left}}}

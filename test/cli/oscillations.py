@@ -78,6 +78,12 @@ def column(out, name, table="history.csv"):
     return [float(row[name]) for row in rows if row[name] not in ("", "m", "N", "s", "J")]
 
 
+def column_of(out, name):
+    """Of the one body."""
+    with open(os.path.join(out, "bodies.csv"), encoding="ascii") as file:
+        return [float(row[name]) for row in list(csv.DictReader(file))[1:]]
+
+
 def heave(capstan, checker, folder):
     errors, size = [], 0
     for h in (0.08, 0.04, 0.02):
@@ -198,6 +204,22 @@ def bad(capstan, folder):
     print("oscillations: %d bad files refused" % len(BAD))
 
 
+def counted(capstan, checker, folder):
+    """What `scheme` has of a load that changes in time: half a step times the integral of its rate times the velocity, and `ends` as much more
+    than the work along the way. What is left beside falls faster."""
+    off, works = [], []
+    for h in (0.04, 0.02, 0.01):
+        _, out, _ = solve(capstan, checker, folder, BODY.format(buoyancy=2000*9.81, h=h))
+        rate = [900*TAU/5*math.cos(TAU*(i + 1)*h/5) + 400*TAU/3*math.sin(TAU*(i + 1)*h/3) for i in range(round(12/h))]
+        more = h/2*sum(f*v*h for f, v in zip(rate, column_of(out, "velocity_z")))
+        off.append(sum(column(out, "scheme"))/more - 1)
+        works.append(sum(column(out, "ends")) - more)
+    print("oscillations: scheme beside (h/2) integral of f'.v: off by %.3f, %.3f, %.3f of it" % tuple(off))
+    print("oscillations: work less that: %.3f, %.3f, %.3f J" % tuple(works))
+    assert abs(off[0]) > 1.8*abs(off[1]) > 3.2*abs(off[2]) and abs(off[2]) < 0.03, off
+    assert abs(works[0] - works[1]) > 3*abs(works[1] - works[2]), works
+
+
 def begins(capstan, checker, folder):
     """A line that starts static has the velocity given as the history begins; a quasi-static entry takes its energy."""
     for entry, kinetic in (("", [0.4375*4]), ("  - {name: hold}\n", [0.4375*4, 0])):
@@ -220,6 +242,7 @@ def main():
         heave(capstan, checker, folder)
         held(capstan, checker, folder)
         knot(capstan, checker, folder)
+        counted(capstan, checker, folder)
         begins(capstan, checker, folder)
         rests(capstan, checker, folder)
         bad(capstan, folder)

@@ -7,7 +7,8 @@ usage: random_in_time.py CAPSTAN CHECKER [--count N] [--seed S] [--only CLASS] [
 Of each class N scenes: `drop`, a line thrown on ground; `clump`, a point on lines let go above it and pulled about; `body`, a body on lines
 whose anchors move; `drum`, a line over a drum that turns and moves; `ground`, a line on ground that moves and turns; `belt`, clumps on lines on such ground, also thrown up; `wheel`, clumps or a body on lines
 over a drum that turns, also more than once, and moves; `rider`, a clump on such a drum; `snatch`, a slack line
-whose end swings until it is taut; `slide`, a line on ground whose end is pulled to and fro; `wave`, a line on a bed in waves. Of three in ten,
+whose end swings until it is taut; `slide`, a line on ground whose end is pulled to and fro; `mud`, points on lines let go above ground
+that gives and pulled about, beside a lump or none; `wave`, a line on a bed in waves. Of three in ten,
 bodies and what ground carries excepted, the last entry is quasi-static, and brings all to rest where that is possible. They differ in
 size, in the place and direction of all (gravity need not be along z), in slope, friction, stiffness, scheme and length of the steps. Of each
 class at least 995 of 1000 records must be certified and none refuted, and the remainder of each ledger is below 1e-10 of its turnover, as the
@@ -25,7 +26,7 @@ from random_swims import Swim, some, vector  # noqa: E402
 
 CERTIFIED, REMAINDER, EACH = 0.995, 1e-10, 5
 ROUNDING = 1e-15  # of an energy; a history in which hardly anything moves turns over 1e-8 of what is stored
-CLASSES = ["drop", "clump", "body", "drum", "ground", "belt", "wheel", "rider", "snatch", "slide", "wave"]
+CLASSES = ["drop", "clump", "body", "drum", "ground", "belt", "wheel", "rider", "snatch", "slide", "mud", "wave"]
 EVENTS = ["landed", "changed", "snatched"]
 TOTAL = dict.fromkeys(EVENTS + ["scenes"], 0)
 
@@ -57,7 +58,7 @@ class Scene:
         self.time = math.sqrt(self.size / 9.81)
         self.rotation = turned(dice)
         # places keep their digits beyond 512 lengths, and lose up to three before, which the residuals of points show
-        near, far = 1e-3 if kind in ("clump", "body", "belt", "wheel", "rider") else dice.random(), dice.uniform(600, 1e4)
+        near, far = 1e-3 if kind in ("clump", "body", "belt", "wheel", "rider", "mud") else dice.random(), dice.uniform(600, 1e4)
         self.origin = [dice.choice([0, 0, 300 * near, far, -far]) * self.size for _ in range(3)]
         self.slope = [dice.choice([0, 0, dice.uniform(-0.4, 0.4)]), dice.choice([0, dice.uniform(-0.2, 0.2)]), 1.0]
 
@@ -101,7 +102,7 @@ class Scene:
         return f"capstan: 1\ngravity: {self.along([0, 0, -9.81])}\ntime_scheme: {self.dice.choice(['bdf2', 'bdf2', 'euler'])}\n"
 
     def text(self):
-        return self.wave() if self.kind == "wave" else self.head() + getattr(self, self.kind)()
+        return getattr(self, self.kind)() if self.kind in ("wave", "moored") else self.head() + getattr(self, self.kind)()
 
     # ---- the classes ----
 
@@ -366,6 +367,109 @@ class Scene:
                 f"ends: {{A: held, B: {{force: [0, 0, 0]}}}}}}\n")
         return out + "history:\n" + self.entry("throw", dice.uniform(2, 5), "")
 
+    def soft(self, height=0.0):
+        """A bed in which a line that lies sinks by 1e-4 to 0.03 of its size, damped or not, its pressure over depth, and the lines' width."""
+        dice, width = self.dice, self.size * 10 ** self.dice.uniform(-3, -1)
+        pressure = self.mass * 9.81 / (width * self.size * 10 ** dice.uniform(-4, -1.5))
+        damping = f", damping: {pressure * self.time * 10 ** dice.uniform(-3, 0)!r}" if dice.random() < 0.6 else ""
+        return f"{self.bed(height)[:-2]}, stiffness: {pressure!r}{damping}}}\n", pressure, width
+
+    def lump(self, pressure):
+        """Rigid or not, above the bed, so that nothing comes between both."""
+        dice, radius = self.dice, self.dice.uniform(0.1, 0.2)  # of two elements at least, or the mesh is too coarse
+        middle = [dice.uniform(-0.1, 0.1), dice.uniform(-0.1, 0.1), 0.0]
+        middle[2] = 2 * radius + self.low(*middle[:2])
+        shape = dice.choice([f"sphere: {{centre: {self.at(middle)}", f"cylinder: {{point: {self.at(middle)}, axis: {self.along([0, 1, -self.slope[1]])}"])
+        gives = dice.choice(["", f", stiffness: {pressure * 10 ** dice.uniform(0, 2)!r}"])
+        return f"  lump: {{{shape}, radius: {self.size * radius!r}}}, friction: {self.friction()}{gives}}}\n", middle[2] + 1.2 * radius
+
+    def mud(self):
+        dice, count, knots = self.dice, self.dice.randint(1, 3), self.dice.choice([1, 1, 2])
+        self.slope[0] *= dice.choice([1, 2])
+        bed, pressure, width = self.soft()
+        out, above, elements = "obstacles:\n" + bed, 0.0, (2, 20)
+        if dice.random() < 0.3:
+            lump, above = self.lump(pressure)
+            out, elements = out + lump, (20, 30)
+        middle, points = [], "points:\n"
+        for k in range(knots):
+            x = [0.3 * k, 0.0, 0.0]
+            x[2] = max(above, self.low(*x[:2])) + 10 ** dice.uniform(-2, -0.4)
+            heavy = self.mass * self.size * 10 ** dice.uniform(-1, 1)
+            buoy = dice.random() < 0.15
+            made = f"weight: {-0.3 * heavy * 9.81!r}, inertia: {heavy!r}" if buoy else f"mass: {heavy!r}"
+            area = f", bearing_area: {heavy * 9.81 / (pressure * self.size * 10 ** dice.uniform(-4, -1.5))!r}" if dice.random() < 0.8 else ""
+            points += f"  clump{k}: {{held: {self.at(x)}, {made}{area}}}\n"
+            middle.append(x)
+        quasi = dice.choice(["", "", "", ", quasi_static: true"])
+        lines = "lines:\n"
+        for i in range(count):
+            angle, k = 2 * math.pi * (i + dice.uniform(-0.2, 0.2)) / count, i % knots
+            far = [middle[k][0] + 0.6 * math.cos(angle), 0.6 * math.sin(angle)]
+            far.append(self.low(*far) + dice.choice([-0.005, 0.0, dice.uniform(0, 0.6)]))
+            lines += (f"  l{i}: {{length: {self.size * math.dist(far, middle[k]) * dice.uniform(1.02, 1.5)!r}, {self.make(True, elements)}, "
+                      f"bearing_width: {width!r}{quasi}, start: static, ends: {{A: {{held: {self.at(far)}}}, B: {{point: clump{k}}}}}}}\n")
+        if knots == 2:
+            lines += (f"  between: {{length: {self.size * math.dist(*middle) * dice.uniform(1.02, 1.5)!r}, {self.make(True, (elements[0] // 2 + 1, 20))}, "
+                      f"bearing_width: {width!r}{quasi}, start: static, ends: {{A: {{point: clump0}}, B: {{point: clump1}}}}}}\n")
+        free = "".join(f", clump{k}.point: {{force: [0, 0, 0]}}" for k in range(knots))
+        out += points + lines + "history:\n" + self.entry("let go", 0.1, free, dice.randint(1, 5)) + self.entry("fall", dice.uniform(0.5, 2), "")
+        pull = [self.weight * dice.uniform(0, 2) * a for a in some(dice, 1)]
+        out += self.entry("drag", dice.uniform(1, 3), f", clump0.point: {{force: {self.along(pull)}}}" if dice.random() < 0.6 else "")
+        sway = f", l0.A: {{move: {self.by([0, 0, 0])}, sine: {self.by([0.1, 0.05, 0])}, period: {self.time * dice.uniform(1, 5)!r}}}"
+        return out + self.entry("pull", dice.uniform(1, 3), sway if abs(self.slope[0]) + abs(self.slope[1]) == 0 else "")
+
+    def moored(self):
+        """A float with members in waves, on lines that lie on the bottom; sometimes with a clump on one of them (random_soft.py)."""
+        dice = self.dice
+        self.rotation = [[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]]
+        self.origin[2] = 0.0
+        self.slope = [dice.choice([0, 0, 0.05]), 0.0, 1.0]
+        depth, count, rho = 0.35, dice.randint(2, 4), 1025.0
+        wide, deep = 0.06 * self.size, 0.1 * self.size
+        displaced = rho * math.pi / 4 * wide * wide * deep
+        self.mass = displaced / self.size * 10 ** dice.uniform(-2, -1)  # of the lines in water, which the float bears
+        self.weight = self.mass * 9.81 * self.size
+        bed, pressure, width = self.soft(-depth)
+        heavy = displaced - 0.5 * count * self.mass * self.size
+        hydro = rho * 9.81 * math.pi / 4 * wide * wide
+        period = self.time * 10 ** dice.uniform(0, 0.7)
+        high = min(10 ** dice.uniform(-2.5, -1.3), 0.005 * (period / self.time) ** 2)  # below what breaks
+        rows = [f"{{amplitude: {self.size * high!r}, period: {period * dice.uniform(0.8, 1.3)!r}, direction: {dice.uniform(0, 360)!r}, "
+                f"phase: {dice.uniform(0, 360)!r}}}" for _ in range(dice.choice([1, 1, 3]))]
+        out = (f"capstan: 1\ntime_scheme: {dice.choice(['bdf2', 'bdf2', 'euler'])}\nwater_density: {rho!r}\nwater_surface: {self.origin[2]!r}\n"
+               f"waves: {{depth: {depth * self.size!r}, ramp: {period!r}, components: [{', '.join(rows)}]}}\nobstacles:\n{bed}")
+        spin = vector([heavy * (0.3 * deep) ** 2] * 3)
+        out += (f"bodies: {{hull: {{free: {self.at([0, 0, 0])}, mass: {heavy!r}, centre_of_gravity: [0, 0, {-0.7 * deep!r}], moments_of_inertia: {spin}, "
+                f"buoyancy: {displaced * 9.81!r}, centre_of_buoyancy: [0, 0, {-0.5 * deep!r}], hydrostatics: {{z: {hydro!r}}}, members: "
+                f"[{{from: [0, 0, {-deep!r}], to: [0, 0, {0.5 * deep!r}], diameter: {wide!r}, normal: 1, tangential: 0.1, added_normal: {dice.choice(['0', '0.8'])}}}]}}}}\n")
+        points, lines, clump = "points:\n", "lines:\n", dice.random() < 0.4
+        quasi = dice.choice(["", "", ", quasi_static: true"])
+        made = lambda n: f"{self.make(True, n)}, bearing_width: {width!r}{quasi}" + ("" if quasi else f", drag: {{diameter: {0.01 * self.size!r}, normal: 1, tangential: 0.05, added_normal: {dice.choice(['0', '1'])}}}")  # noqa: E731
+        for i in range(count):
+            angle = 2 * math.pi * (i + dice.uniform(-0.2, 0.2)) / count
+            way = [math.cos(angle), math.sin(angle)]
+            eye = [0.5 * wide / self.size * a for a in way] + [-deep / self.size]
+            points += f"  eye{i}: {{body: hull, at: {vector([self.size * a for a in eye])}}}\n"
+            far = [dice.uniform(0.7, 1) * a for a in way]
+            far.append(self.low(*far) - depth + dice.choice([0.0, -0.003]))
+            length = math.dist(far, eye) * dice.uniform(1.02, 1.1)
+            if clump and i == 0:
+                knot = [f + dice.uniform(0.4, 0.6) * (e - f) for f, e in zip(far, eye)]
+                knot[2] = self.low(*knot[:2]) - depth + dice.choice([0.0, 0.05])
+                sinks = heavy * 10 ** dice.uniform(-2, -0.7)
+                points += (f"  clump: {{free: {self.at(knot)}, mass: {sinks!r}, "
+                           f"bearing_area: {sinks * 9.81 / (pressure * self.size * 10 ** dice.uniform(-4, -2))!r}}}\n")
+                lines += (f"  lower: {{length: {self.size * math.dist(far, knot) * dice.uniform(1.01, 1.1)!r}, {made((6, 14))}, start: static, "
+                          f"ends: {{A: {{held: {self.at(far)}}}, B: {{point: clump}}}}}}\n")
+                far, length = None, math.dist(knot, eye) * dice.uniform(1.05, 1.2)
+            ends = "point: clump" if far is None else f"held: {self.at(far)}"
+            lines += (f"  l{i}: {{length: {self.size * length!r}, {made((8, 25))}, start: static, ends: {{A: {{{ends}}}, B: {{point: eye{i}}}}}}}\n")
+        pull = [heavy * 9.81 * a for a in some(dice, 0.1)]
+        steps = lambda: dice.randint(20, 200)  # noqa: E731
+        return out + points + lines + "history:\n" + self.entry("sea", dice.uniform(2, 5), "", steps()) + self.entry(
+            "wind", dice.uniform(1, 3), f", hull.body: {{force: {vector(pull)}}}", steps())
+
     def wave(self):
         while True:
             text = Swim(random.Random(self.dice.random()), random.Random(self.dice.random()), None, "bed").text()
@@ -375,7 +479,7 @@ class Scene:
 
 def rest(dice, kind):
     """What moves may come to rest at the end; a body not always finds where from far away, and what no anchor holds may have no such place."""
-    return "  - {name: rest}\n" if kind not in ("body", "belt", "wheel", "rider") and dice.random() < 0.3 else ""
+    return "  - {name: rest}\n" if kind not in ("body", "belt", "wheel", "rider", "moored") and dice.random() < 0.3 else ""
 
 
 def remainder(out):

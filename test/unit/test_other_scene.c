@@ -153,7 +153,10 @@ static const char MESH_SCENE[] =
 /* Shapes, below and round the line. */
 static const char FLOAT_SCENE[] =
     "capstan: 1\nwater_density: 1000\nwater_surface: 0\n"
+    "points: {can: {free: [9, 0, 0], mass: 5, volume: 0.1, height: 0.5}}\n"
     "lines:\n"
+    "  leg: {length: 4, elements: 4, mass: 2, stiffness: 1e4, start: static,"
+    " ends: {A: {held: [9, 0, -2]}, B: {point: can}}}\n"
     "  cable: {length: 4, elements: 4, mass: 2, diameter: 0.02, stiffness: 1e4, start: static,"
     " point_weights: [{at: 2, mass: 5, volume: 0.1, floats: true}],"
     " ends: {A: {held: [0, 0, -1]}, B: {held: [3, 0, -1]}}}\n"
@@ -431,6 +434,7 @@ static const struct Change FLOAT_CHANGE[] = {
     {"floats", ", floats: true", ""},
     {"floats", "at: 2", "at: 3"},
     {"floats", "volume: 0.1, floats", "volume: 0.2, floats"},
+    {"height", "height: 0.5", "height: 0.6"},
 };
 
 static const struct Change SET_CHANGE[] = {

@@ -51,7 +51,7 @@ void cpsi_netcdf_free_sets(CpsiNetcdfObstacles *obstacles);
 
 enum { CPSI_POINT_VECTORS = 9, CPSI_POINT_NUMBERS = 7, CPSI_POINT_INTS = 5 };
 /* in time */
-enum { CPSI_POINT_MOTIONS = 3, CPSI_POINT_MOTION_NUMBERS = 6 };
+enum { CPSI_POINT_MOTIONS = 3, CPSI_POINT_MOTION_NUMBERS = 7 };
 
 /* The sets to which ends of a line, or points, are held (capstan/constraint.h). */
 typedef struct CpsiNetcdfSets {
@@ -65,6 +65,8 @@ typedef struct CpsiNetcdfPoints {
     int capacity, limit, drags;
     int vector[CPSI_POINT_VECTORS], number[CPSI_POINT_NUMBERS], whole[CPSI_POINT_INTS];
     CpsiNetcdfSets sets;
+    bool floats; /* unused without: */
+    int direction, level, surface_waves;
     bool in_time; /* unused without: */
     int mass, inertia, motion[CPSI_POINT_MOTIONS], motion_number[CPSI_POINT_MOTION_NUMBERS], given;
 } CpsiNetcdfPoints;

@@ -82,6 +82,8 @@ static const struct {
      CPSI_MEMBER(CpsPointMotion, ledger.scheme)},
     {"ledger_settling_of_point", "energy lost where a quasi-static step brings it to rest", "J",
      CPSI_MEMBER(CpsPointMotion, ledger.settling)},
+    {"ledger_damping_of_point", "energy lost to the damping of the ground that gives below it", "J",
+     CPSI_MEMBER(CpsPointMotion, ledger.damping)},
 };
 
 typedef enum PointInt {
@@ -129,6 +131,36 @@ static void define_names(CpsiNetcdfFile *file, const CpsScene *scene, const char
     free(names);
 }
 
+/* What has a surface: points that float, and the waves on them. */
+static void define_water(CpsiNetcdfFile *file, CpsiNetcdfPoints *points, const CpsScene *scene,
+                         const int shape[3]) {
+    points->floats = scene->has_water_surface;
+    if (!points->floats) return;
+    double *height = calloc((size_t)points->count, sizeof *height);
+    if (!height) cpsi_netcdf_keep(file, NC_ENOMEM);
+    for (int k = 0; height && k < points->count; ++k) height[k] = scene->point[k].height;
+    if (height) cpsi_netcdf_numbers(file, "height_of_point", (size_t)points->count, height);
+    free(height);
+    points->direction =
+        cpsi_netcdf_variable(file, "", "water_direction_of_point", NC_DOUBLE, 3, shape,
+                             "by which its buoyancy is the force of the water", "1");
+    points->level = cpsi_netcdf_variable(file, "", "water_level_of_point", NC_DOUBLE, 2, shape,
+                                         "z of the surface of the water above or below it", "m");
+    if (cpsi_has_duration(scene))
+        points->surface_waves =
+            cpsi_netcdf_variable(file, "", "ledger_waves_of_point", NC_DOUBLE, 2, shape,
+                                 "work of the surface of the water as it rises", "J");
+}
+
+static void append_water(CpsiNetcdfFile *file, const CpsiNetcdfPoints *points, size_t step,
+                         size_t k, const CpsPointReport *report, double waves) {
+    const size_t start[] = {step, k, 0}, count[] = {1, 1, XYZ};
+    if (!points->floats) return;
+    cpsi_netcdf_doubles(file, points->direction, start, count, report->water_direction);
+    cpsi_netcdf_doubles(file, points->level, start, count, &report->water_level);
+    if (points->in_time) cpsi_netcdf_doubles(file, points->surface_waves, start, count, &waves);
+}
+
 void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
                                const CpsScene *scene, int step, int xyz, const double origin[3]) {
     points->count = scene->point_count;
@@ -173,6 +205,7 @@ void cpsi_netcdf_define_points(CpsiNetcdfFile *file, CpsiNetcdfPoints *points,
     cpsi_netcdf_flags(file, points->whole[POINT_WATER], NC_INT, 4, NULL,
                       "none submerged floating above");
     cpsi_netcdf_define_point_sets(file, &points->sets, scene, shape, origin);
+    define_water(file, points, scene, shape);
     points->in_time = cpsi_has_duration(scene);
     if (!points->in_time) return;
     points->mass = cpsi_netcdf_variable(file, "", "mass_of_point", NC_DOUBLE, 1, &points->dimension,
@@ -252,6 +285,7 @@ void cpsi_netcdf_append_points(CpsiNetcdfFile *file, const CpsiNetcdfPoints *poi
         append_point(file, points, step, (size_t)k, &report);
         const CpsPointMotion motion = cps_evolution_point_motion_view(evolution, k);
         if (points->in_time) append_motion(file, points, step, (size_t)k, &motion, report.inertia);
+        append_water(file, points, step, (size_t)k, &report, motion.ledger.waves);
     }
 }
 

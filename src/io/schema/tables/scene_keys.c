@@ -46,8 +46,7 @@ static const CpsiKey SPHERE_KEYS[] = {
 static const CpsiMapping SPHERE = {"sphere", KEYS(SPHERE_KEYS)};
 
 static const CpsiKey GROUND_KEYS[] = {
-    {"file", REQUIRED, TEXT(Obstacle, grid, 255), ANY,
-     .help = "a grid of heights, beside this file"},
+    {"file", REQUIRED, TEXT(Obstacle, grid, 255), ANY, .help = "grid of heights, beside this file"},
     {"form", REQUIRED, WORD(Obstacle, form), .words = "esri xyz netcdf moordyn_c moordyn_f",
      .help = "form of the file: ESRI ASCII grid; rows x y z of all points of a grid; classic "
              "netCDF; or a bathymetry file of MoorDyn in C or in Fortran"},
@@ -435,6 +434,9 @@ static const CpsiKey SCENE_POINT_KEYS[] = {
      .help = "weight (in water: the submerged one), instead of mass; negative: a buoy"},
     {"volume", OPTIONAL, NUMBER(ScenePoint, volume), NOT_NEGATIVE, .unit = "m3", .with = "mass",
      .fallback = "0", .help = "of the water it displaces"},
+    {"height", OPTIONAL, NUMBER(ScenePoint, point.height), NOT_NEGATIVE, .unit = "m",
+     .with = "volume", .fallback = "0",
+     .help = "of what floats, with the point in its middle: its buoyancy grows evenly over it"},
     {"holding_capacity", OPTIONAL, NUMBER(ScenePoint, point.holding_capacity), POSITIVE,
      .unit = "N", .with = "held",
      .help = "of an anchor: the force along the ground that it can bear; what exceeds it is said"},
@@ -494,8 +496,7 @@ static const CpsiMapping START = {"start", KEYS(START_KEYS), INTO(Start)};
 static const CpsiKey END_KEYS[] = {
     {"held", ONE_OF, POINT(End, value, 3), ANY, .unit = "m", .formerly = "fixed",
      .help = "held at this position, which must be that of the start shape"},
-    {"force", ONE_OF, POINT(End, value, 3), ANY, .unit = "N",
-     .help = "free, pulled with this force"},
+    {"force", ONE_OF, POINT(End, value, 3), ANY, .unit = "N", .help = "free, pulled by this force"},
     {"point", ONE_OF, TEXT(End, point, 0),
      .help = "name of one of the scene's points, at which the line ends with others"},
     {"on", ONE_OF, MAPPING(End, on), .inside = &ON,
@@ -739,8 +740,7 @@ static const CpsiKey SOLVER_KEYS[] = {
 static const CpsiMapping SOLVER = {"solver", KEYS(SOLVER_KEYS)};
 
 static const CpsiKey SCENE_KEYS[] = {
-    {"capstan", REQUIRED, INTEGER(Scene, version), 1, 1, false,
-     .help = "version of this file format"},
+    {"capstan", REQUIRED, INTEGER(Scene, version), 1, 1, false, .help = "version of the format"},
     {"title", OPTIONAL, TEXT(Scene, scene.title, 0),
      .help = "what the scene shows; printed with the results"},
     {"gravity", OPTIONAL, POINT(Scene, scene.gravity, 3), ANY, .unit = "m/s2",
