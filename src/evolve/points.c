@@ -14,7 +14,7 @@
 #include "evolve/places.h"
 #include "evolve/ranges.h"
 #include "evolve/soft_check.h"
-#include "evolve/water.h"
+#include "evolve/water_check.h"
 #include "geometry/obstacle.h"
 
 enum { POINT_COOKIE = 0x5017e005, MAX_POINTS = 100000 };

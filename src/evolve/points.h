@@ -66,6 +66,11 @@ typedef struct CpsiPoints {
     double surface; /* [m] z of the water's surface */
 } CpsiPoints;
 
+/* The surface of water at rest. */
+static inline CpsiSurface cpsi_surface_at_rest(const CpsiPoints *points) {
+    return (CpsiSurface){vec3(0, 0, points->surface), vec3(0, 0, 1)};
+}
+
 /* Check the points, and which ends are at which. */
 CpsStatus cpsi_points_check(const CpsScene *scene, CpsError *err);
 /* ... and what a stage changes at them. */

@@ -28,7 +28,7 @@
 #include "evolve/stage_check.h"
 #include "evolve/start.h"
 #include "evolve/time_check.h"
-#include "evolve/water.h"
+#include "evolve/water_check.h"
 #include "evolve/waves.h"
 #include "evolve/winches.h"
 #include "geometry/obstacle.h"

@@ -17,7 +17,7 @@
 #include "evolve/sways.h"
 #include "evolve/time_check.h"
 #include "evolve/velocities.h"
-#include "evolve/water.h"
+#include "evolve/water_check.h"
 #include "evolve/winches.h"
 
 enum { STAGE_COOKIE = 0x57a9e004 };

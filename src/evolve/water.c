@@ -16,44 +16,9 @@ static const double STEEPEST = 0.1;
 /* A first guess is no better than this, per length of the point's longest line. */
 static const double GUESSED = 1e-6;
 
-CpsStatus cpsi_water_check(const CpsScene *scene, const double gravity[3], const char *what,
-                           CpsError *err) {
-    if (!scene->has_water_surface) return CPS_OK;
-    if (gravity[0] == 0 && gravity[1] == 0 && gravity[2] <= 0) return CPS_OK;
-    return CPSI_FAIL_AT("gravity", err, CPS_ERR_ARGUMENT,
-                        "%s: (%g, %g, %g) m/s2 in a scene with a water surface, which is a plane "
-                        "z = constant: expected (0, 0, -g)",
-                        what, gravity[0], gravity[1], gravity[2]);
-}
-
-CpsStatus cpsi_water_point_check(const CpsScene *scene, const CpsPoint *point, CpsError *err) {
-    if (!cpsi_is_not_negative(point->displaced_weight))
-        return cpsi_fail(err, CPS_ERR_ARGUMENT,
-                         "point '%s': it displaces water of %g N, expected a finite number, at "
-                         "least 0",
-                         point->name, point->displaced_weight);
-    if (!cpsi_is_not_negative(point->height))
-        return CPSI_FAIL_AT("height", err, CPS_ERR_ARGUMENT,
-                            "point '%s': height is %g m, expected a finite number >= 0",
-                            point->name, point->height);
-    if (point->height > 0 && !(scene->has_water_surface && point->displaced_weight > 0))
-        return CPSI_FAIL_AT("height", err, CPS_ERR_ARGUMENT,
-                            "point '%s': height: it is that of what floats, but %s", point->name,
-                            scene->has_water_surface
-                                ? "the point displaces no water: give its volume, or leave the "
-                                  "height out"
-                                : "the water has no surface: give water_surface, or leave the "
-                                  "height out");
-    return CPS_OK;
-}
-
 /* [N] D under this gravity. */
 static double displaced(const CpsiPoint *point, const double gravity[3]) {
     return point->displaced_mass > 0 ? point->displaced_mass * vec3_norm(vec3_load(gravity)) : 0;
-}
-
-CpsiSurface cpsi_surface_at_rest(const CpsiPoints *points) {
-    return (CpsiSurface){vec3(0, 0, points->surface), vec3(0, 0, 1)};
 }
 
 /* That of the waves at the end of a step in time; as the waves grow, both the height of the surface

@@ -23,16 +23,8 @@
 
 #include "evolve/points.h"
 
-/* Gravity in a scene with a surface; `what` names the stage that it belongs to, or is "gravity". */
-CpsStatus cpsi_water_check(const CpsScene *scene, const double gravity[3], const char *what,
-                           CpsError *err);
-
-/* A point of the scene: what it displaces, and its height. */
-CpsStatus cpsi_water_point_check(const CpsScene *scene, const CpsPoint *point, CpsError *err);
-
-/* The surface at rest. And: find that of the step that begins, in time where the points have been
- * predicted (point_motion.h). */
-CpsiSurface cpsi_surface_at_rest(const CpsiPoints *points);
+/* Find the surface of the step that begins, in time where the points have been predicted
+ * (point_motion.h). */
 void cpsi_water_find_surfaces(CpsEvolution *evolution);
 
 /* [m] The height of a place above a surface; that place on it that is upright above or below x. */
