@@ -357,7 +357,8 @@ static void pass_body(Tape *tape, CpsiBody *body) {
     PASS(tape, report->trial_count);
     pass_body_inertia(tape, &body->inertia);
     PASS(tape, body->radiation.kept);
-    pass(tape, body->radiation.past, 6 * (size_t)body->radiation.rows * sizeof(double));
+    const size_t past = 6 * (size_t)body->radiation.rows * sizeof(double);
+    if (past > 0) pass(tape, body->radiation.past, past);
 }
 
 size_t cpsi_line_state_size(const CpsiLine *line) {
