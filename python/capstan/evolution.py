@@ -302,6 +302,11 @@ class Evolution:
         return self._ask(lambda handle: Record(lib.cps_evolution_report(handle)))
 
     @property
+    def in_time(self) -> Record:
+        """How all lines, points and bodies moved in the last step: sums (CpsStepMotion of motion.h)."""
+        return self._ask(lambda handle: Record(lib.cps_evolution_motion(handle)))
+
+    @property
     def certified(self) -> bool:
         """Whether the last step has a certified answer."""
         return self._ask(lambda handle: lib.cps_evolution_report(handle).step_count > 0 and

@@ -153,7 +153,7 @@ WAVE_CHANGES = [
     ("waves under gravity that leans", "capstan: 1\n", "capstan: 1\ngravity: [1, 0, -9]\n", INPUT, "2:1: gravity: (1, 0, -9) m/s2 in a scene with a water surface, which is a plane z = constant: expected (0, 0, -g)"),
     ("waves under gravity that changes", "time_step: 0.01", "time_step: 0.01, gravity: [0, 0, -8]", INPUT, "19:49: stage 1: gravity changes, but waves are those under one gravity: leave either out"),
     ("waves in air", "water_density: 1025\n", "", INPUT, "2:1: 'water_surface': it goes with 'water_density', which is not given"),
-    ("a point that would float in waves", "mass: 5", "mass: 5, volume: 0.01", INPUT, "13:36: point 'knot': volume: a step of the history has a duration, in which points do not float at a water surface: leave 'water_surface' out"),
+    ("a height of what displaces nothing", "mass: 5", "mass: 5, height: 0.1", INPUT, "13:36: 'height': it goes with 'volume', which is not given"),
     ("excitation without waves", "waves:\n  depth: 20\n  ramp: 3\n  components:\n    - " + ONE + "\n    - " + TWO + "\n", "", INPUT, "5:69: body 'hull': excitation: it is that of waves, and the scene has none: give waves, or leave it out"),
     ("excitation in words", "[{frequency: 0.2, direction: 390, amplitude: [1, 1, 1, 0, 0, 0]}, ", "[much, ", INPUT, "11:82: row of the excitation: found 'much', expected a mapping"),
     ("excitation without a period", "frequency: 0.2, ", "", INPUT, "11:82: row of the excitation: 'period' is missing"),
@@ -189,7 +189,7 @@ WAVE_CHANGES = [
     ("a misspelt member", MEMBER, MEMBER.replace("members", "member"), INPUT, "11:322: body 'hull': unknown key 'member'; did you mean 'members'?"),
     ("a misspelt end of a member", "from: [0, 0, -1]", "form: [0, 0, -1]", INPUT, "11:333: member: unknown key 'form'; did you mean 'from'?"),
     ("too many members", MEMBER, "members: [" + ", ".join([MEMBER[10:-1]]*201) + "]", LIMIT, "11:322: body 'hull': members: found 201, the limit is 200"),
-    ("memory of radiation", "moments_of_inertia: [9, 9, 9]", "moments_of_inertia: [9, 9, 9], radiation: [[0, 1]]", INPUT, "11:69: body 'hull': unknown key 'radiation'"),
+    ("memory of radiation", "moments_of_inertia: [9, 9, 9]", "moments_of_inertia: [9, 9, 9], radiation: [[0, 1]]", INPUT, "11:69: 'radiation': found a list of 1, expected a text of at most 255 bytes"),
 ]
 
 

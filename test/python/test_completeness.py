@@ -188,6 +188,7 @@ def test_moves_in_time():
     evolution.move({"duration": 0.05, "rope.B": {"position": [1.5, 0, 0], "sine": [0, 0, 0.2], "period": 0.2}})
     motion = evolution["rope"].in_time
     assert evolution.time == 0.05 and motion.is_moving and motion.kinetic > 0 and motion.velocity.shape == (11, 3)
+    assert evolution.in_time.kinetic == motion.kinetic and evolution.in_time.ledger.scheme == motion.ledger.scheme
     assert evolution.pace.length == 0.05 and evolution.pace.error == 0 and evolution.pace.rejected == 0
     # a quarter of the period: the end has come to the top of its way
     assert np.allclose(evolution["rope"].B.position, [1.5, 0, 0.2], atol=1e-12)
@@ -343,7 +344,7 @@ NOT_CALLED = {
     r"cps_\w+_(retain|release|destroy)|cps_solution_set_clear": "objects of Python own what they hold",
     r"cps_(\w+_)?(default|check)": "structs that scenes fill; Scene.check",
     r"cps_\w+_(name|text)": "enumerations are their words",
-    r"cps_evolution_(body|line|obstacle|point)_count|cps_law_file_(space|title)|cps_loaded_law_\w+|cps_extremes_add": "lists of Python",
+    r"cps_evolution_(body|line|obstacle|point)_count|cps_ledgers_add|cps_law_file_(space|title)|cps_loaded_law_\w+|cps_extremes_add": "lists of Python",
     r"cps_set_(support|contains|gauge|dissipation)|cps_evolution_interrupt": "called by native.c, in loops and for signals",
     r"cps_set_conic\w*|cps_set_user": "for programs in C that extend the library",
     r"cps_sway_at|cps_wave_number|cps_breaking_height|cps_waves_at": "sines and cosines",
