@@ -27,15 +27,20 @@ static double rise_at(const CpsiLine *line, int c) {
     return vec3_dot(cpsi_shift_to(&line->shift[k], x), vec3_at(line->normal, c));
 }
 
+CpsiSoft cpsi_soft_damp(const CpsiObstacle *obstacle, double stiffness, double span, double past) {
+    const double viscous = stiffness * (obstacle->damping / obstacle->stiffness) / span,
+                 all = stiffness + viscous;
+    return (CpsiSoft){all, all > 0 ? viscous / all * past : 0};
+}
+
 CpsiSoft cpsi_soft_spring(const CpsiLine *line, int c) {
     const CpsiObstacle *o = cpsi_line_obstacle(line, c);
     if (!o || !(o->stiffness > 0)) return (CpsiSoft){0};
     const int j = node_at(line, c);
     const double own = stiffness_at(line, o, j);
     if (!(o->damping > 0) || !line->inertia.is_moving) return (CpsiSoft){own, 0};
-    const double viscous = own * (o->damping / o->stiffness) / line->inertia.span[j],
-                 all = own + viscous, past = fmax(0, -(line->gap[c] + rise_at(line, c)));
-    return (CpsiSoft){all, isfinite(past) ? viscous / all * past : 0};
+    const double past = fmax(0, -(line->gap[c] + rise_at(line, c)));
+    return cpsi_soft_damp(o, own, line->inertia.span[j], isfinite(past) ? past : 0);
 }
 
 /* The place of node j on the obstacle as it is now, of where it was before the step. */

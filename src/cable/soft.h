@@ -21,6 +21,8 @@ typedef struct CpsiSoft {
     double rest;      /* [m] >= 0; 0 in a quasi-static step */
 } CpsiSoft;
 CpsiSoft cpsi_soft_spring(const CpsiLine *line, int c);
+/* ... of a stiffness k on an obstacle, with e in `past` and s in `span`. */
+CpsiSoft cpsi_soft_damp(const CpsiObstacle *obstacle, double stiffness, double span, double past);
 
 /* Does node j go into or out of what gives in the step in time, whose length [s] is `length`? */
 bool cpsi_soft_is_crossed(const CpsiLine *line, int j, double length);

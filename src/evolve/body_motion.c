@@ -224,6 +224,12 @@ static CpsiWrench inertia_of(const CpsiBody *body, const CpsiBodyPhase *at) {
     return (CpsiWrench){vec3_add(mass, water), moment};
 }
 
+/* A force and a moment in the axes of the body. */
+static CpsiWrench from_body(const CpsiBodyPhase *at, const double f[6]) {
+    return (CpsiWrench){rotation_apply(at->turn, vec3_load(f)),
+                        rotation_apply(at->turn, vec3_load(&f[3]))};
+}
+
 static CpsiWrench damping_of(const CpsiBody *body, const CpsiBodyPhase *at) {
     const CpsBody *given = &body->given;
     double u[6], f[6] = {0};
@@ -232,8 +238,7 @@ static CpsiWrench damping_of(const CpsiBody *body, const CpsiBodyPhase *at) {
         for (int k = 0; k < 6; k++)
             f[i] -= (given->damping[6 * i + k] + given->quadratic_damping[6 * i + k] * fabs(u[k])) *
                     u[k];
-    return (CpsiWrench){rotation_apply(at->turn, vec3_load(f)),
-                        rotation_apply(at->turn, vec3_load(&f[3]))};
+    return from_body(at, f);
 }
 
 CpsiWrench cpsi_body_inertia(const CpsiBody *body, const CpsiPose *pose) {
@@ -255,8 +260,7 @@ static CpsiWrench radiation_of(const CpsiBody *body, const CpsiBodyPhase *at) {
     double u[6], f[6] = {0};
     to_body(at, u);
     cpsi_radiation_add(&body->radiation, u, f);
-    return (CpsiWrench){rotation_apply(at->turn, vec3_load(f)),
-                        rotation_apply(at->turn, vec3_load(&f[3]))};
+    return from_body(at, f);
 }
 
 /* The water on members and that of radiation, in a step in time. */

@@ -38,19 +38,17 @@ double cpsi_soft_point_stiffness(const CpsEvolution *evolution, int index, int o
                : evolution->obstacle[on].stiffness * evolution->points.point[index].area;
 }
 
+/* [m] How deep a place lies in an obstacle. */
+static double depth_in(const CpsiObstacle *on, Vec3 place) {
+    return fmax(0, -cpsi_obstacle_gap(on, place));
+}
+
 CpsiSoft cpsi_soft_point_spring(const CpsEvolution *evolution, int index, int on, Vec3 from) {
     const CpsiObstacle *obstacle = &evolution->obstacle[on];
     const double own = cpsi_soft_point_stiffness(evolution, index, on);
     if (!(obstacle->damping > 0) || !(evolution->interval > 0)) return (CpsiSoft){own, 0};
-    const double viscous = own * (obstacle->damping / obstacle->stiffness) /
-                           evolution->points.point[index].inertia.span,
-                 all = own + viscous, past = fmax(0, -cpsi_obstacle_gap(obstacle, from));
-    return (CpsiSoft){all, all > 0 ? viscous / all * past : 0};
-}
-
-/* [m] How deep a place lies in an obstacle. */
-static double depth_in(const CpsiObstacle *on, Vec3 place) {
-    return fmax(0, -cpsi_obstacle_gap(on, place));
+    return cpsi_soft_damp(obstacle, own, evolution->points.point[index].inertia.span,
+                          depth_in(obstacle, from));
 }
 
 /* Where the point was when the step began, on obstacle k as it is now. */
