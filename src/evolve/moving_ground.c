@@ -6,8 +6,9 @@
 
 #include "cable/contact.h"
 
-/* Rounding of a quarter of a turn, and of that part of a radius. */
-static const double ROUNDING = 1e-6;
+/* Rounding of a quarter of a turn and of that part of a radius as they are asked for; and of a
+ * quarter that a point has gone, by its places, which are known to the tolerance of points. */
+static const double ROUNDING = 1e-9, GONE_ROUNDING = 1e-6;
 
 static bool moves(const CpsEvolution *evolution, int k) {
     return evolution->angle[k] != 0 || !cpsi_shift_is_none(&evolution->shift[k]);
@@ -83,7 +84,7 @@ static bool passes(const CpsEvolution *evolution, const CpsiPoint *point, int k)
 }
 
 bool cpsi_ground_outruns(const CpsEvolution *evolution, const CpsiPoint *point, Vec3 start) {
-    const double most = CPSI_QUARTER * (1 + ROUNDING);
+    const double most = CPSI_QUARTER * (1 + ROUNDING), gone = CPSI_QUARTER * (1 + GONE_ROUNDING);
     if (!(evolution->interval > 0)) return false;
     for (int k = 0; k < evolution->obstacle_count; k++)
         if (fabs(evolution->angle[k]) + vec3_norm(evolution->shift[k].turn) > most ||
