@@ -94,5 +94,5 @@ bool cpsi_ground_outruns(const CpsEvolution *evolution, const CpsiPoint *point, 
     const CpsiObstacle *on = &evolution->obstacle[point->report.obstacle];
     const double angle =
         cpsi_obstacle_angle(on, cpsi_obstacle_normal(on, start), vec3_load(point->report.normal));
-    return on->friction[0] > 0 && !(fabs(angle) <= most);
+    return on->friction[0] > 0 && !(fabs(angle) <= gone);
 }
