@@ -100,10 +100,11 @@ bool cpsi_obstacle_turns_too_far(double angle, const CpsiShift *shift) {
     return turn > CPSI_QUARTER * (1 + ROUNDING);
 }
 
-bool cpsi_obstacle_may_pass(const CpsiObstacle *obstacle, const CpsiShift *shift, Vec3 x,
+bool cpsi_obstacle_may_pass(const CpsiObstacle *obstacle, const CpsiShift *shift, Vec3 from, Vec3 x,
                             double reach) {
     if (obstacle->kind == CPS_OBSTACLE_PLANE || cpsi_shift_is_none(shift)) return false;
-    const double size = vec3_norm(cpsi_shift_to(shift, x));
-    return size > CPSI_MOST_SHIFT * obstacle->radius * (1 + ROUNDING) &&
-           cpsi_obstacle_gap(obstacle, x) <= size + reach;
+    const double most = CPSI_MOST_SHIFT * obstacle->radius * (1 + ROUNDING),
+                 size = vec3_norm(cpsi_shift_to(shift, x)), way = vec3_norm(vec3_sub(x, from)),
+                 apart = vec3_norm(vec3_sub(x, cpsi_shift_carry(shift, from)));
+    return size > most && apart > most && cpsi_obstacle_gap(obstacle, x) <= size + way + reach;
 }

@@ -29,9 +29,11 @@ int cpsi_obstacle_passed(const CpsiLine *line, const double *from, const double 
  * about its own axis by `angle` [rad] and by `shift`, or NULL? */
 bool cpsi_obstacle_turns_too_far(double angle, const CpsiShift *shift);
 
-/* May an obstacle, which is shifted to where it is now, have gone past what is no more than `reach`
- * [m] from x and went so far? */
-bool cpsi_obstacle_may_pass(const CpsiObstacle *obstacle, const CpsiShift *shift, Vec3 x,
+/* May an obstacle, which is shifted to where it is now, have gone past what went from `from` to x
+ * meanwhile, and reaches as far as `reach` [m] from there? What goes along with it, by up to
+ * CPSI_MOST_SHIFT of its radius, is where it was as seen from the obstacle, and all that is outside
+ * of it there has a radius of it between one side and the other. */
+bool cpsi_obstacle_may_pass(const CpsiObstacle *obstacle, const CpsiShift *shift, Vec3 from, Vec3 x,
                             double reach);
 
 #endif

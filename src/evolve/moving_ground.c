@@ -75,11 +75,10 @@ bool cpsi_ground_outruns(const CpsEvolution *evolution, const CpsiPoint *point, 
     const double gone = CPSI_QUARTER * (1 + GONE_ROUNDING);
     if (!(evolution->interval > 0)) return false;
     const Vec3 x = vec3_load(point->report.position);
-    const double way = vec3_norm(vec3_sub(x, vec3_load(point->before)));
     for (int k = 0; k < evolution->obstacle_count; k++) {
         const CpsiShift *shift = &evolution->shift[k];
         if (cpsi_obstacle_turns_too_far(evolution->angle[k], shift) ||
-            cpsi_obstacle_may_pass(&evolution->obstacle[k], shift, x, way))
+            cpsi_obstacle_may_pass(&evolution->obstacle[k], shift, vec3_load(point->before), x, 0))
             return true;
     }
     if (point->report.obstacle == CPS_NO_OBSTACLE) return false;

@@ -111,9 +111,10 @@ static bool ground_outruns(const CpsiLine *line, const CpsiMove *move) {
         if (!shift) continue;
         for (int j = 0; j < line->n; j++) {
             const Vec3 x = vec3_at(line->position, j);
-            const double way = vec3_norm(vec3_sub(x, vec3_at(line->inertia.start, j))),
-                         element = line->element_length[j < line->n - 1 ? j : j - 1];
-            if (cpsi_obstacle_may_pass(&line->obstacle[k], shift, x, way + element)) return true;
+            const double element = line->element_length[j < line->n - 1 ? j : j - 1];
+            if (cpsi_obstacle_may_pass(&line->obstacle[k], shift, vec3_at(line->inertia.start, j),
+                                       x, element))
+                return true;
         }
     }
     return false;
