@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "cable/contact.h"
+#include "cable/contact_carry.h"
 #include "cable/damping.h"
 #include "cable/field.h"
 #include "cable/soft.h"
@@ -103,15 +104,10 @@ static void add_impact(Sums *sums, int j, int c, Vec3 ground) {
     sums->scheme -= lost;
 }
 
-/* The way of the ground under contact c in the whole step: the reference was carried along for the
- * span of the scheme. */
+/* The way of the ground under contact c, at x, in the whole step. */
 static Vec3 ground_way(const CpsiLine *line, int c, Vec3 x, double length) {
-    if (!line->has_local_axes) return vec3(0, 0, 0);
-    const int k = line->obstacle_index[c], e = cpsi_line_element(line, c);
-    if (k < 0 || (line->turn[k] == 0 && !cpsi_line_is_shifted(line, k))) return vec3(0, 0, 0);
-    const double by = length / line->inertia.span[e < 0 ? cpsi_line_node(line, c) : e];
-    const Vec3 before = cpsi_obstacle_turn(&line->obstacle[k], x, -line->turn[k]);
-    return vec3_scale(by, vec3_add(vec3_sub(x, before), cpsi_shift_to(&line->shift[k], before)));
+    const int k = line->has_local_axes ? line->obstacle_index[c] : CPS_NO_OBSTACLE;
+    return k < 0 ? vec3(0, 0, 0) : cpsi_contact_ground_way(line, k, x, length);
 }
 
 static void add_contacts(Sums *sums, const unsigned char *state) {

@@ -317,6 +317,7 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     if (cpsi_line_has_damping(line) && !inertia->is_moving) cpsi_line_begin_damping(line);
     inertia->is_moving = true;
     memcpy(inertia->velocity_given, move->has_velocity, sizeof inertia->velocity_given);
+    memcpy(inertia->past, inertia->start, places);
     memcpy(inertia->start, line->position, places);
     memcpy(inertia->start_velocity, inertia->velocity, places);
     cpsi_substeps_save(line, scratch);
