@@ -70,12 +70,18 @@ double cpsi_contact_shorten(CpsiLine *line, bool sides);
  * position - base. Returns the largest angle [rad] by which the axes of a touching node turn. */
 double cpsi_contact_move_base(CpsiLine *line, bool sides);
 
-/* Does contact c do nothing: has it neither forces nor a bound, on something rigid? */
+/* Does contact c do nothing: has it neither forces nor a bound, on something rigid or above what
+ * gives? */
 static inline bool cpsi_contact_is_idle(const CpsiLine *line, int c) {
     const double *f = &line->friction_force[3 * c];
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-    return line->friction_bound[c] == 0 && line->reaction[c] == 0 && f[0] == 0 && f[1] == 0 &&
-           f[2] == 0 && !(obstacle && obstacle->stiffness > 0);
+    if (line->friction_bound[c] != 0 || line->reaction[c] != 0 || f[0] != 0 || f[1] != 0 ||
+        f[2] != 0)
+        return false;
+    if (!obstacle || !(obstacle->stiffness > 0)) return true;
+    const Vec3 u = vec3_sub(cpsi_line_place(line, line->position, c),
+                            cpsi_line_place(line, line->reference, c));
+    return vec3_dot(vec3_at(line->normal, c), u) + line->gap[c] >= 0;
 }
 
 #endif

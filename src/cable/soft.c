@@ -21,7 +21,7 @@ static int node_at(const CpsiLine *line, int c) {
 
 /* [m] How far the ground below contact c rises in the span of the step. */
 static double rise_at(const CpsiLine *line, int c) {
-    const int k = line->obstacle_index[c];
+    const int k = line->has_local_axes ? line->obstacle_index[c] : 0;
     if (!cpsi_line_is_shifted(line, k)) return 0;
     const Vec3 x = vec3_at(line->position, node_at(line, c));
     return vec3_dot(cpsi_shift_to(&line->shift[k], x), vec3_at(line->normal, c));
@@ -45,6 +45,7 @@ CpsiSoft cpsi_soft_spring(const CpsiLine *line, int c) {
 
 /* The place of node j on the obstacle as it is now, of where it was before the step. */
 static Vec3 place_before(const CpsiLine *line, int k, int j, double length) {
+    if (!cpsi_line_is_shifted(line, k)) return vec3_at(line->inertia.start, j);
     const double ratio = length / line->inertia.span[j];
     const CpsiShift whole = cpsi_shift_part(&line->shift[k], 1 - ratio, 1);
     return cpsi_shift_carry(&whole, vec3_at(line->inertia.start, j));
@@ -64,16 +65,14 @@ bool cpsi_soft_is_crossed(const CpsiLine *line, int j, double length) {
     return crossed;
 }
 
-double cpsi_soft_growth(const CpsiLine *line, double length) {
+double cpsi_soft_growth(const CpsiLine *line, int j, double length) {
     double sum = 0;
-    for (int k = 0; k < line->obstacle_count; k++) {
+    for (int k = 0; k < line->obstacle_count && !cpsi_line_is_held(line, j); k++) {
         const CpsiObstacle *o = &line->obstacle[k];
-        for (int j = 0; j < line->n && o->stiffness > 0; j++) {
-            if (cpsi_line_is_held(line, j)) continue;
-            const double now = depth_at(o, vec3_at(line->position, j)),
-                         was = depth_at(o, place_before(line, k, j, length));
-            sum += 0.5 * stiffness_at(line, o, j) * (now - was) * (now + was);
-        }
+        if (!(o->stiffness > 0)) continue;
+        const double now = depth_at(o, vec3_at(line->position, j)),
+                     was = depth_at(o, place_before(line, k, j, length));
+        sum += 0.5 * stiffness_at(line, o, j) * (now - was) * (now + was);
     }
     return sum;
 }
@@ -83,7 +82,7 @@ double cpsi_soft_damped(const CpsiLine *line, int c, double length) {
     if (!o || !(o->damping > 0)) return 0;
     const int j = node_at(line, c);
     const double now = depth_at(o, vec3_at(line->position, j)),
-                 was = depth_at(o, place_before(line, line->obstacle_index[c], j, length));
+                 was = depth_at(o, place_before(line, (int)(o - line->obstacle), j, length));
     return (line->reaction[c] - stiffness_at(line, o, j) * now) * (now - was);
 }
 

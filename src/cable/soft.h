@@ -26,9 +26,9 @@ CpsiSoft cpsi_soft_damp(const CpsiObstacle *obstacle, double stiffness, double s
 
 /* Does node j go into or out of what gives in the step in time, whose length [s] is `length`? */
 bool cpsi_soft_is_crossed(const CpsiLine *line, int j, double length);
-/* [J] What the step in time has stored more in what gives below the nodes that are not held, and
- * what it has lost to the damping of contact c; `length` [s] is that of the step. */
-double cpsi_soft_growth(const CpsiLine *line, double length);
+/* [J] What the step in time has stored more in what gives below node j, 0 if that is held, and what
+ * it has lost to the damping of contact c; `length` [s] is that of the step. */
+double cpsi_soft_growth(const CpsiLine *line, int j, double length);
 double cpsi_soft_damped(const CpsiLine *line, int c, double length);
 
 /* [m] How much deeper than the surface slip at x is measured, in what is round: as deep as x, up to

@@ -39,10 +39,15 @@ static char *copy_name(CpsiArena *arena, const char *name) {
     return copy;
 }
 
-/* Do contacts need axes of their own? Not on one plane with isotropic friction that stays. */
+/* Do contacts need axes of their own? Not on one plane with isotropic friction that stays. Where
+ * that gives, rounds refine what the interior-point loop leaves of reactions; lines with inertia
+ * have Newton's method for that, whose steps are short. */
 static bool scene_needs_local_axes(const CpsScene *scene) {
     if (scene->obstacle_count != 1 || scene->obstacle[0].moves) return scene->obstacle_count > 0;
     const CpsiObstacle only = cpsi_obstacle(scene->obstacle);
+    if (only.stiffness > 0)
+        for (int i = 0; i < scene->line_count; i++)
+            if (!(scene->line[i].inertia > 0)) return true;
     return cpsi_obstacle_needs_local_axes(&only);
 }
 

@@ -55,11 +55,9 @@ Vec3 cpsi_ground_carry(const CpsEvolution *evolution, const CpsiPoint *point, in
                                share * evolution->angle[k]);
 }
 
-Vec3 cpsi_ground_way(const CpsEvolution *evolution, const CpsiPoint *point) {
-    const int k = point->report.obstacle;
+Vec3 cpsi_ground_way(const CpsEvolution *evolution, int k, Vec3 x) {
     if (k < 0 || !moves(evolution, k)) return vec3(0, 0, 0);
-    const Vec3 x = vec3_load(point->report.position),
-               before = cpsi_obstacle_turn(&evolution->obstacle[k], x, -evolution->angle[k]);
+    const Vec3 before = cpsi_obstacle_turn(&evolution->obstacle[k], x, -evolution->angle[k]);
     return vec3_add(vec3_sub(x, before), cpsi_shift_to(&evolution->shift[k], before));
 }
 

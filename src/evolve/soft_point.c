@@ -104,20 +104,20 @@ static double stored_at(const CpsEvolution *evolution, int index, Vec3 place, bo
     return 0.5 * cpsi_soft_point_stiffness(evolution, index, on) * depth * depth;
 }
 
-double cpsi_soft_point_growth(const CpsEvolution *evolution, int index) {
+double cpsi_soft_point_growth(const CpsEvolution *evolution, int index, Vec3 place) {
     const CpsiPoint *point = &evolution->points.point[index];
     if (!may_bear(point)) return 0;
-    return stored_at(evolution, index, vec3_load(point->position), false) -
+    return stored_at(evolution, index, place, false) -
            stored_at(evolution, index, vec3_load(point->before), true);
 }
 
-double cpsi_soft_point_damped(const CpsEvolution *evolution, int index) {
+double cpsi_soft_point_damped(const CpsEvolution *evolution, int index, Vec3 place,
+                              double reaction) {
     const CpsiPoint *point = &evolution->points.point[index];
     double now;
-    const int on = deepest(evolution, vec3_load(point->position), false, &now);
+    const int on = deepest(evolution, place, false, &now);
     if (!may_bear(point) || on == CPS_NO_OBSTACLE || !(evolution->obstacle[on].damping > 0))
         return 0;
     const double was = depth_in(&evolution->obstacle[on], place_before(evolution, index, on));
-    return (point->report.reaction - cpsi_soft_point_stiffness(evolution, index, on) * now) *
-           (now - was);
+    return (reaction - cpsi_soft_point_stiffness(evolution, index, on) * now) * (now - was);
 }

@@ -57,16 +57,22 @@ static void add_loads(Sums *sums) {
     }
 }
 
+/* [J] What the scheme loses at node j to inertia. */
+static double inertia_loss(const CpsiLine *line, int j) {
+    const CpsiInertia *inertia = &line->inertia;
+    const Vec3 v = vec3_at(inertia->velocity, j), v0 = vec3_at(inertia->start_velocity, j);
+    const double work = -vec3_dot(cpsi_line_field_balanced(line, j), way_of(line, j)),
+                 gained = 0.5 * inertia->mass[j] * vec3_dot(vec3_sub(v, v0), vec3_add(v, v0));
+    return work - gained;
+}
+
 /* Inertia, gravity and the elements. */
 static void add_bodies(Sums *sums) {
     const CpsiLine *line = sums->line;
     const CpsiInertia *inertia = &line->inertia;
     for (int j = 0; j < line->n; j++) {
         const Vec3 way = way_of(line, j);
-        const Vec3 v = vec3_at(inertia->velocity, j), v0 = vec3_at(inertia->start_velocity, j);
-        const double work = -vec3_dot(cpsi_line_field_balanced(line, j), way),
-                     gained = 0.5 * inertia->mass[j] * vec3_dot(vec3_sub(v, v0), vec3_add(v, v0));
-        sums->scheme += work - gained;
+        sums->scheme += inertia_loss(line, j);
         sums->ledger.gravity -=
             cpsi_line_weight_length(line, j) * vec3_dot(vec3_load(line->weight), way);
     }
@@ -151,13 +157,26 @@ static void add_ends(Sums *sums, CpsLineReport *report) {
             vec3_dot(vec3_load(line->grasp[k].force), way_of(line, line->grasp[k].node));
 }
 
+double cpsi_node_loss(const CpsiLine *line, int j, double length) {
+    double loss = inertia_loss(line, j) - cpsi_soft_growth(line, j, length);
+    for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
+        if (!(line->reaction[c] > 0)) continue;
+        const Vec3 ground = ground_way(line, c, vec3_at(line->position, j), length);
+        loss -= line->reaction[c] *
+                vec3_dot(vec3_at(line->normal, c), vec3_sub(way_of(line, j), ground));
+        loss -= fmax(0, cpsi_soft_damped(line, c, length));
+    }
+    return loss;
+}
+
 void cpsi_time_ledger(CpsiLine *line, double length, const unsigned char *state) {
     Sums sums = {.line = line, .length = length};
     add_bodies(&sums);
     add_loads(&sums);
     add_contacts(&sums, state);
     if (cpsi_line_has_soft(line)) {
-        const double stored = cpsi_soft_growth(line, length);
+        double stored = 0;
+        for (int j = 0; j < line->n; j++) stored += cpsi_soft_growth(line, j, length);
         sums.ledger.elastic += stored;
         sums.scheme -= stored;
     }

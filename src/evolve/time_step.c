@@ -16,7 +16,7 @@
  * the past as well, so that it does not rebound; after it has landed its next step is an Euler
  * step, for friction may have stopped it; a step in which an element is snatched taut is taken
  * again as an Euler step of its two nodes, and their next step is one too; so is one in which a
- * node goes into what gives, or out of it, which would fling it out with more than it had. */
+ * node goes into what gives, or out of it, if that would fling it with more than it had. */
 #include "evolve/time_step.h"
 
 #include <math.h>
@@ -130,15 +130,15 @@ static bool ground_outruns(const CpsiLine *line, const CpsiMove *move) {
 }
 
 /* The elements that were slack and are taut, and the nodes that have gone into or out of what
- * gives in a step of length h. Such nodes are to be taken by Euler steps: returns whether one was
- * not. */
+ * gives in a step of length h. Such nodes are to be taken by Euler steps next: returns whether one
+ * was not and is to be now, since it is beside a snatched element or has gained energy. */
 static bool find_rough(CpsiLine *line, double h) {
     CpsiInertia *inertia = &line->inertia;
     bool found = false;
     inertia->snatched = 0;
     for (int j = 0; cpsi_line_has_soft(line) && j < line->n; j++) {
         if (cpsi_line_is_held(line, j) || !cpsi_soft_is_crossed(line, j, h)) continue;
-        found = found || !inertia->restarts[j];
+        found = found || (!inertia->restarts[j] && cpsi_node_loss(line, j, h) < 0);
         inertia->restarts[j] = true;
     }
     for (int e = 0; e + 1 < line->n; e++) {
@@ -360,7 +360,7 @@ bool cpsi_line_is_rough(CpsiLine *line, double h) {
     if (!line->has_inertia) return false;
     for (int j = 0; j < line->n; j++) {
         inertia->late[j] = !cpsi_line_is_held(line, j) && cpsi_soft_is_crossed(line, j, h);
-        late = late || (inertia->late[j] && inertia->span[j] < h);
+        late = late || (inertia->late[j] && inertia->span[j] < h && cpsi_node_loss(line, j, h) < 0);
     }
     for (int e = 0; e + 1 < line->n; e++) {
         if (!is_slack(line, inertia->start, e) || is_slack(line, line->position, e)) continue;
