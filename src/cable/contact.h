@@ -3,17 +3,9 @@
 #ifndef CAPSTAN_SRC_CABLE_CONTACT_H
 #define CAPSTAN_SRC_CABLE_CONTACT_H
 
-#include "base/math.h"
 #include "cable/line.h"
 
 #define CPSI_TOUCH CPS_TOUCH /* step.h */
-
-/* [rad] In one substep no obstacle turns by more, and no node with friction moves farther round
- * one. */
-#define CPSI_QUARTER (0.5 * CPSI_PI)
-/* A round obstacle that goes no farther than this share of its radius at once keeps its axis or
- * centre on its side of what it pushes. */
-#define CPSI_MOST_SHIFT 0.25
 
 /* At the reference, where a step begins: base, axes, normals, gaps; friction bounds of the
  * reference, a first guess where friction is consistent, zero for an initial configuration by

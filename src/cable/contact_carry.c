@@ -11,9 +11,14 @@
 
 /* Does obstacle k turn in a step by the formula of the second order? */
 static bool turns_twice(const CpsiLine *line, int k) {
-    const CpsiInertia *inertia = &line->inertia;
-    return inertia->is_moving && inertia->span[0] < inertia->formula.length &&
+    return line->inertia.moved_in_span &&
            (line->turn[k] != 0 || !cpsi_vec3_is_zero(line->shift[k].turn));
+}
+
+/* The length of the step in time over that for which obstacles move in it. */
+static double whole_step(const CpsiLine *line) {
+    const CpsiInertia *inertia = &line->inertia;
+    return inertia->moved_in_span ? inertia->formula.length / inertia->span[0] : 1;
 }
 
 /* Where obstacle k takes x to at the end of the step, in `shares` of the span for which it moves in
@@ -29,15 +34,15 @@ Vec3 cpsi_contact_carry(const CpsiLine *line, int k, int c, bool turns) {
                                    &line->shift[k], turns ? line->turn[k] : 0);
     const CpsiInertia *inertia = &line->inertia;
     const CpsiFormula *formula = &inertia->formula;
-    const double step = formula->length / inertia->span[0], both = step * (1 + 1 / formula->ratio);
+    const double step = whole_step(line), both = step * (1 + 1 / formula->ratio);
     const Vec3 last = carry_for(line, k, step, turns, cpsi_line_place(line, inertia->start, c)),
                first = carry_for(line, k, both, turns, cpsi_line_place(line, inertia->past, c));
     return vec3_axpy(formula->back, vec3_sub(last, first), last);
 }
 
-Vec3 cpsi_contact_ground_way(const CpsiLine *line, int k, Vec3 x, double length) {
+Vec3 cpsi_contact_ground_way(const CpsiLine *line, int k, Vec3 x) {
     if (line->turn[k] == 0 && !cpsi_line_is_shifted(line, k)) return vec3(0, 0, 0);
-    const double step = length / line->inertia.span[0];
+    const double step = whole_step(line);
     const CpsiShift shift = cpsi_shift_part(&line->shift[k], 1 - step, 1);
     const Vec3 before = cpsi_obstacle_turn(&line->obstacle[k], x, -step * line->turn[k]);
     return vec3_add(vec3_sub(x, before), cpsi_shift_to(&shift, before));

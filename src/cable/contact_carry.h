@@ -9,7 +9,7 @@
  * `turns` as it turns about its own axis as well. */
 Vec3 cpsi_contact_carry(const CpsiLine *line, int k, int c, bool turns);
 
-/* The way in a whole step in time, of length [s], of what obstacle k has at x after it. */
-Vec3 cpsi_contact_ground_way(const CpsiLine *line, int k, Vec3 x, double length);
+/* [m] The way in a whole step in time of what obstacle k has at x after it. */
+Vec3 cpsi_contact_ground_way(const CpsiLine *line, int k, Vec3 x);
 
 #endif

@@ -55,8 +55,9 @@ typedef struct CpsiInertia {
     bool *late;              /* (n) scratch: this step was to be one */
     bool *is_euler;          /* (n) ... and whether it is one */
     bool velocity_given[2];  /* of ends A and B, by the caller */
-    CpsiFormula formula;     /* of the nodes that take no Euler step */
-    double error;            /* [m] that the step makes by itself, by its estimate (pace.h) */
+    bool moved_in_span;  /* the line's shifts and turns are those in the span, less than a step */
+    CpsiFormula formula; /* of the nodes that take no Euler step */
+    double error;        /* [m] that the step makes by itself, by its estimate (pace.h) */
     CpsiDamping damping;
     double kinetic;        /* [J] */
     double position_bound; /* [m] */

@@ -40,6 +40,8 @@ static void layout_two_stiffnesses(CpsiTwoStiffnesses *two, CpsiArena *arena, in
 
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
+    CPSI_PLACE(arena, line->turn, line->obstacle_count + 1);
+    CPSI_PLACE(arena, line->shift, line->obstacle_count + 1);
     CPSI_PLACE(arena, line->arc_length, n);
     CPSI_PLACE(arena, line->element_length, n);
     line->natural_length = line->element_length;

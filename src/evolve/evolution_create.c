@@ -77,6 +77,7 @@ static bool scene_has_element_contacts(const CpsScene *scene, bool has_folds) {
 }
 
 static void take_contacts(CpsiLine *line, const CpsiWorkspaceSize *size, bool has_folds) {
+    line->obstacle_count = size->obstacles;
     line->has_local_axes = size->has_local_axes;
     line->has_folds = has_folds;
     line->contacts = size->contacts;
@@ -221,7 +222,6 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
 /* The obstacles of a line, and its axes: those of the one plane, else of the world. */
 static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
     static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1};
-    line->obstacle_count = evolution->obstacle_count;
     line->obstacle = evolution->obstacle;
     cpsi_workspace_attach(&evolution->workspace[0], line);
     const bool own = line->has_local_axes || line->obstacle_count == 0;

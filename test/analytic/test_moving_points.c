@@ -665,6 +665,33 @@ static void no_step_is_too_long(void **state) {
     CHECK_INT(push(1, 0.6, 0, &found), 1);
 }
 
+/* What rests on a deck goes with it, by three radii of its edges in a step. */
+static void clumps_go_with_a_deck(void **state) {
+    (void)state;
+    const double by[3] = {1.5, -0.6, 0};
+    const int count = 10;
+    Rig rig;
+    clumps(&rig, CPS_TIME_SCHEME_BDF2, 0.4);
+    rig.obstacle.kind = CPS_OBSTACLE_BOX;
+    place(rig.obstacle.point, 2, 0, -0.5);
+    place(rig.obstacle.shape.size, 8, 4, 1);
+    rig.obstacle.radius = 0.05;
+    for (int k = 0; k < 2; k++) place(rig.point[k].velocity, by[0], by[1], by[2]);
+    place(rig.line[0].velocity, by[0], by[1], by[2]);
+    CpsStage *stage = add_stage(&rig, 1, count);
+    shift(&rig, stage, by[0], by[1], by[2]);
+    CpsEvolution *evolution = open(&rig);
+    const double from[2] = {at(evolution, 0, 0), at(evolution, 1, 0)};
+    Sums sums = {0};
+    steps(evolution, count, &sums);
+    for (int k = 0; k < 2; k++) {
+        figure("deck", "way of a clump along x [m]", by[0], at(evolution, k, 0) - from[k]);
+        CHECK_NEAR(at(evolution, k, 0) - from[k], by[0], 1e-9);
+        CHECK_NEAR(at(evolution, k, 2), 0, 1e-9);
+    }
+    cps_evolution_destroy(evolution);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_belt_takes_clumps_along),
@@ -678,6 +705,7 @@ int main(void) {
         cmocka_unit_test(a_body_on_lines_over_a_drum),
         cmocka_unit_test(a_frame_of_constant_velocity),
         cmocka_unit_test(no_step_is_too_long),
+        cmocka_unit_test(clumps_go_with_a_deck),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
