@@ -18,11 +18,12 @@
  * A time step is the same convex program as a quasi-static one, with a quadratic term for each node
  * (docs/theory.md 9): friction stays a set, and the step has a certificate. The scheme is the
  * backward difference formula of second order, or the implicit Euler method; the first step in
- * time, and those at which an element is snatched taut, are Euler steps. A node that lands does not
- * rebound, but for what the ground gives (CpsObstacle). It needs Coulomb's law, contact that is
- * reached, and a scene without lines that part, winches and anchors that drag. Beside free points
- * and bodies lines are elastic. The path tolerance has no effect on lines with inertia. Motions and
- * loads that a function of the program makes of time and state are those of follow.h.
+ * time, those in which an end or a node is let go at once, and those at which an element is
+ * snatched taut are Euler steps. A node that lands does not rebound, but for what the ground gives
+ * (CpsObstacle). It needs Coulomb's law, contact that is reached, and a scene without lines that
+ * part, winches and anchors that drag. Beside free points and bodies lines are elastic. The path
+ * tolerance has no effect on lines with inertia. Motions and loads that a function of the program
+ * makes of time and state are those of follow.h.
  *
  * The velocity of what is held is that of the scheme by its places. A program that is coupled to
  * this one, and knows the velocity at the end of a step, may give it beside the place there

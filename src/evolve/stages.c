@@ -315,6 +315,15 @@ static void plan_shifts(CpsEvolution *evolution, const CpsiEvolutionStage *stage
     }
 }
 
+/* Does the stage let an end or a node go at once? The force there jumps then. */
+static bool lets_go(const CpsiEvolutionStage *stage) {
+    for (int k = 0; k < stage->change_count; k++)
+        if (stage->change[k].to.kind == CPS_END_KIND_RELEASED) return true;
+    for (int k = 0; k < stage->grasp_change_count; k++)
+        if (stage->grasp_change[k].at_once) return true;
+    return false;
+}
+
 /* The time that the step takes, and its formula. Obstacles go on at the rate of the step before
  * within a stage. */
 static void plan_time(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
@@ -326,8 +335,9 @@ static void plan_time(CpsEvolution *evolution, const CpsiEvolutionStage *stage,
     evolution->waves.time = evolution->water.time = evolution->time + length;
     for (int i = 0; i < evolution->line_count; i++)
         cpsi_line_loads_impose(&evolution->line[i], evolution->time + length);
-    evolution->restarts = !(ratio <= MOST_GROWTH * (1 + SAME_STEP)) ||
-                          (portion->part == 0 && (moves || evolution->ground_moved));
+    evolution->restarts =
+        !(ratio <= MOST_GROWTH * (1 + SAME_STEP)) ||
+        (portion->part == 0 && (moves || evolution->ground_moved || lets_go(stage)));
     evolution->formula = cpsi_formula(length, evolution->restarts ? 1 : ratio);
     evolution->ground_moved = moves;
     cpsi_excite_bodies(evolution);
