@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Drums that give, in time: a rope that a clump draws through one, a step that is too long for the
- * way of a node round the axis. Each figure is printed. */
+ * way of a node round the axis, and a clump that lands on a stiff one. Each figure is printed. */
 #include <string.h>
 
 #include "time_rig.h"
@@ -191,8 +191,40 @@ static void what_follows_a_step_that_is_too_long(void **unused) {
     assert_int_equal(run.certified, run.steps - 1);
 }
 
+/* Thrown on a drum that hardly gives the clump goes along it by a good part of the radius in a
+ * step, in which it sinks by hardly anything. */
+static void a_clump_lands_on_a_stiff_one(void **unused) {
+    (void)unused;
+    const Drum drum = {.radius = 1,
+                       .stiffness = 1e9,
+                       .friction = 0.6,
+                       .mass = 150,
+                       .start = {-0.9, 0, 1.2},
+                       .velocity = {6, 0, -3},
+                       .bearing_area = 1,
+                       .anchor = -1.9,
+                       .height = 1.2,
+                       .length = 1,
+                       .line_mass = 0,
+                       .line_stiffness = 1e-10,
+                       .width = 0.01,
+                       .elements = 1,
+                       .thrown = true,
+                       .duration = 0.6,
+                       .steps = 10};
+    Run run = open_run(&drum);
+    for (int k = 0; k < drum.steps; k++) step(&run, &drum);
+    assert_int_equal(run.certified, run.steps);
+    assert_true(run.landed > 0);
+    time_report("lands", "reaction off k A d [N]", 0, run.off);
+    CHECK_LESS(run.off, 1e-6);
+    CHECK_LESS(run.most_trials, 40);
+    close_run(&run, "lands");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_rope_goes_through_it),
-                                       cmocka_unit_test(what_follows_a_step_that_is_too_long)};
+                                       cmocka_unit_test(what_follows_a_step_that_is_too_long),
+                                       cmocka_unit_test(a_clump_lands_on_a_stiff_one)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
