@@ -31,8 +31,7 @@ void check_print_current(const CpsScene *scene) {
     putchar('\n');
 }
 
-/* six rows beside a head, as "[1 2 3 4 5 6]", without what is rounding of sums over members */
-static void print_matrix(const char *head, const double *matrix) {
+void check_print_matrix(const char *head, const double *matrix) {
     double largest = 0;
     for (int i = 0; i < SIX * SIX; i++) largest = fmax(largest, fabs(matrix[i]));
     if (largest == 0) return;
@@ -60,9 +59,9 @@ void check_print_body_motion(const CpsScene *scene, int body) {
     print_velocity(v, "m/s");
     if (any(&v[3], 3)) printf(", turn rate (%g, %g, %g) rad/s", v[3], v[4], v[5]);
     putchar('\n');
-    print_matrix("added mass", added);
-    print_matrix("damping", of->damping);
-    print_matrix("quadratic damping", of->quadratic_damping);
+    check_print_matrix("added mass", added);
+    check_print_matrix("damping", of->damping);
+    check_print_matrix("quadratic damping", of->quadratic_damping);
     if (of->excitation_count > 0)
         printf("  excitation by waves in %d row%s\n", of->excitation_count,
                of->excitation_count == 1 ? "" : "s");

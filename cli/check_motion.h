@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What `capstan check` prints of a scene in time: what has inertia, drag and damping, and how long
- * the history takes. */
+ * the history takes; and matrices of bodies. */
 #ifndef CAPSTAN_CLI_CHECK_MOTION_H
 #define CAPSTAN_CLI_CHECK_MOTION_H
 
@@ -9,6 +9,9 @@
 /* An entry of the history has a duration. */
 bool check_in_time(const CpsScene *scene);
 
+/* The six rows of a matrix beside a head, as "[1 2 3 4 5 6]", without what is rounding of sums;
+ * nothing of 0. */
+void check_print_matrix(const char *head, const double *matrix);
 void check_print_current(const CpsScene *scene);
 void check_print_body_motion(const CpsScene *scene, int body);
 void check_print_point_motion(const CpsPoint *point);

@@ -111,16 +111,6 @@ static void print_obstacle(const CpsObstacle *o) {
     print_friction(o);
 }
 
-/* six rows, as "[1 2 3 4 5 6]" */
-static void print_hydrostatics(const double *matrix) {
-    for (int i = 0; i < CPS_BODY_DIRECTIONS; i++) {
-        fputs(i ? "               " : "  hydrostatics ", stdout);
-        for (int k = 0; k < CPS_BODY_DIRECTIONS; k++)
-            printf("%s%g", k ? " " : "[", matrix[CPS_BODY_DIRECTIONS * i + k]);
-        puts("]");
-    }
-}
-
 static void print_body(const CpsScene *scene, int index) {
     const CpsBody *body = &scene->body[index];
     static const char *const DIRECTION[] = {"x", "y", "z", "rx", "ry", "rz"};
@@ -137,10 +127,7 @@ static void print_body(const CpsScene *scene, int index) {
         printf("  weight %g N at (%g, %g, %g) m\n", body->weight, g[0], g[1], g[2]);
     if (body->buoyancy != 0)
         printf("  buoyancy %g N at (%g, %g, %g) m\n", body->buoyancy, b[0], b[1], b[2]);
-    bool floats = false;
-    for (int i = 0; i < CPS_BODY_DIRECTIONS * CPS_BODY_DIRECTIONS; i++)
-        floats |= body->hydrostatics[i] != 0;
-    if (floats) print_hydrostatics(body->hydrostatics);
+    check_print_matrix("hydrostatics", body->hydrostatics);
     if (is_free)
         printf("  force (%g, %g, %g) N, moment (%g, %g, %g) N m\n", f[0], f[1], f[2], m[0], m[1],
                m[2]);

@@ -3,17 +3,9 @@
 #ifndef CAPSTAN_SRC_CABLE_CONTACT_H
 #define CAPSTAN_SRC_CABLE_CONTACT_H
 
-#include "base/math.h"
 #include "cable/line.h"
 
 #define CPSI_TOUCH CPS_TOUCH /* step.h */
-
-/* [rad] In one substep no obstacle turns by more, and no node with friction moves farther round
- * one. */
-#define CPSI_QUARTER (0.5 * CPSI_PI)
-/* A round obstacle that goes no farther than this share of its radius at once keeps its axis or
- * centre on its side of what it pushes. */
-#define CPSI_MOST_SHIFT 0.25
 
 /* At the reference, where a step begins: base, axes, normals, gaps; friction bounds of the
  * reference, a first guess where friction is consistent, zero for an initial configuration by
@@ -70,12 +62,18 @@ double cpsi_contact_shorten(CpsiLine *line, bool sides);
  * position - base. Returns the largest angle [rad] by which the axes of a touching node turn. */
 double cpsi_contact_move_base(CpsiLine *line, bool sides);
 
-/* Does contact c do nothing: has it neither forces nor a bound, on something rigid? */
+/* Does contact c do nothing: has it neither forces nor a bound, on something rigid or above what
+ * gives? */
 static inline bool cpsi_contact_is_idle(const CpsiLine *line, int c) {
     const double *f = &line->friction_force[3 * c];
     const CpsiObstacle *obstacle = cpsi_line_obstacle(line, c);
-    return line->friction_bound[c] == 0 && line->reaction[c] == 0 && f[0] == 0 && f[1] == 0 &&
-           f[2] == 0 && !(obstacle && obstacle->stiffness > 0);
+    if (line->friction_bound[c] != 0 || line->reaction[c] != 0 || f[0] != 0 || f[1] != 0 ||
+        f[2] != 0)
+        return false;
+    if (!obstacle || !(obstacle->stiffness > 0)) return true;
+    const Vec3 u = vec3_sub(cpsi_line_place(line, line->position, c),
+                            cpsi_line_place(line, line->reference, c));
+    return vec3_dot(vec3_at(line->normal, c), u) + line->gap[c] >= 0;
 }
 
 #endif

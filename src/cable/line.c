@@ -14,6 +14,7 @@ static void layout_inertia(CpsiInertia *inertia, CpsiArena *arena, size_t n) {
     CPSI_PLACE(arena, inertia->velocity, 3 * n);
     CPSI_PLACE(arena, inertia->before, 3 * n);
     CPSI_PLACE(arena, inertia->before_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->past, 3 * n);
     CPSI_PLACE(arena, inertia->restarts, n);
     CPSI_PLACE(arena, inertia->late, n);
     CPSI_PLACE(arena, inertia->is_euler, n);
@@ -39,6 +40,8 @@ static void layout_two_stiffnesses(CpsiTwoStiffnesses *two, CpsiArena *arena, in
 
 void cpsi_line_layout(CpsiLine *line, CpsiArena *arena) {
     const size_t n = (size_t)line->n, contacts = (size_t)cpsi_line_all_contacts(line);
+    CPSI_PLACE(arena, line->turn, line->obstacle_count + 1);
+    CPSI_PLACE(arena, line->shift, line->obstacle_count + 1);
     CPSI_PLACE(arena, line->arc_length, n);
     CPSI_PLACE(arena, line->element_length, n);
     line->natural_length = line->element_length;

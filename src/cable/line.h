@@ -34,9 +34,9 @@ typedef struct CpsiLine {
     int obstacle_count;
     const CpsiObstacle *obstacle; /* (obstacle_count) */
     const CpsiFrictionSet *const
-        *friction_set;  /* (obstacle_count) general; an entry NULL: {0} or none; NULL: all are */
-    const double *turn; /* (obstacle_count) [rad] by which each turns in this substep, and */
-    CpsiShift *shift;   /* how each has been shifted in it */
+        *friction_set; /* (obstacle_count) general; an entry NULL: {0} or none; NULL: all are */
+    double *turn;      /* (obstacle_count) [rad] by which each turns in this substep, and */
+    CpsiShift *shift;  /* how each has been shifted in it */
     bool has_zones, has_inertia; /* friction differs along it; it may move in time */
     bool has_field, has_node_loads, has_potential; /* the arrays of `field` are there */
     bool has_sections; /* weight and compliance may, and there may be point masses */

@@ -170,8 +170,10 @@ static bool solve_once(CpsiLine *line, CpsiChainProgram *program, const CpsiStep
         return false;
     }
     if (in_rounds) return cpsi_tangent_plane_rounds(line, program, options, strategy, bounds);
-    /* positions of inextensible lines are found to rounding, as are bounds on curved obstacles */
-    const bool may_be_rough = !line->has_local_axes && line->compliance > 0;
+    /* positions of inextensible lines are found to rounding, as are bounds on curved obstacles; and
+     * what gives has no polish to refine them */
+    const bool may_be_rough =
+        !line->has_local_axes && line->compliance > 0 && !cpsi_line_has_soft(line);
     CpsiIpmReport ipm = solve_program(line, program, options, strategy, coupled, may_be_rough);
     if (line->is_rough && cps_outcome_is_certified(line->report.outcome)) return false;
     const bool rough = line->is_rough;

@@ -13,6 +13,8 @@
 static const double NEAREST = 0.5;
 /* The move ends within this relative distance of the least admissible one. */
 static const double CLOSE = 1e-3;
+/* Rounding of a quarter of a turn and of that part of a radius as they are asked for. */
+static const double ROUNDING = 1e-9;
 /* Planes computed at most; then the move ends at the share reached. */
 enum { PLANES = 100 };
 
@@ -96,4 +98,18 @@ int cpsi_obstacle_passed(const CpsiLine *line, const double *from, const double 
         }
     }
     return CPS_NO_OBSTACLE;
+}
+
+bool cpsi_obstacle_turns_too_far(double angle, const CpsiShift *shift) {
+    const double turn = fabs(angle) + (shift ? vec3_norm(shift->turn) : 0);
+    return turn > CPSI_QUARTER * (1 + ROUNDING);
+}
+
+bool cpsi_obstacle_may_pass(const CpsiObstacle *obstacle, const CpsiShift *shift, Vec3 from, Vec3 x,
+                            double reach) {
+    if (obstacle->kind == CPS_OBSTACLE_PLANE || cpsi_shift_is_none(shift)) return false;
+    const double most = CPSI_MOST_SHIFT * obstacle->radius * (1 + ROUNDING),
+                 size = vec3_norm(cpsi_shift_to(shift, x)), way = vec3_norm(vec3_sub(x, from)),
+                 apart = vec3_norm(vec3_sub(x, cpsi_shift_carry(shift, from)));
+    return size > most && apart > most && cpsi_obstacle_gap(obstacle, x) <= size + way + reach;
 }

@@ -21,7 +21,7 @@ static int node_at(const CpsiLine *line, int c) {
 
 /* [m] How far the ground below contact c rises in the span of the step. */
 static double rise_at(const CpsiLine *line, int c) {
-    const int k = line->obstacle_index[c];
+    const int k = line->has_local_axes ? line->obstacle_index[c] : 0;
     if (!cpsi_line_is_shifted(line, k)) return 0;
     const Vec3 x = vec3_at(line->position, node_at(line, c));
     return vec3_dot(cpsi_shift_to(&line->shift[k], x), vec3_at(line->normal, c));
@@ -45,35 +45,37 @@ CpsiSoft cpsi_soft_spring(const CpsiLine *line, int c) {
 
 /* The place of node j on the obstacle as it is now, of where it was before the step. */
 static Vec3 place_before(const CpsiLine *line, int k, int j, double length) {
+    if (!cpsi_line_is_shifted(line, k)) return vec3_at(line->inertia.start, j);
     const double ratio = length / line->inertia.span[j];
     const CpsiShift whole = cpsi_shift_part(&line->shift[k], 1 - ratio, 1);
     return cpsi_shift_carry(&whole, vec3_at(line->inertia.start, j));
 }
 
-static double depth_at(const CpsiObstacle *o, Vec3 x) { return fmax(0, -cpsi_obstacle_gap(o, x)); }
+double cpsi_soft_depth(const CpsiObstacle *obstacle, Vec3 x) {
+    return fmax(0, -cpsi_obstacle_gap(obstacle, x));
+}
+
+bool cpsi_soft_crosses(const CpsiObstacle *obstacle, Vec3 before, Vec3 now) {
+    return obstacle->stiffness > 0 &&
+           (cpsi_soft_depth(obstacle, now) > 0) != (cpsi_soft_depth(obstacle, before) > 0);
+}
 
 bool cpsi_soft_is_crossed(const CpsiLine *line, int j, double length) {
     bool crossed = false;
-    for (int k = 0; k < line->obstacle_count; k++) {
-        const CpsiObstacle *o = &line->obstacle[k];
-        if (!(o->stiffness > 0)) continue;
-        const double now = depth_at(o, vec3_at(line->position, j)),
-                     was = depth_at(o, place_before(line, k, j, length));
-        crossed = crossed || (now > 0) != (was > 0);
-    }
+    for (int k = 0; k < line->obstacle_count; k++)
+        crossed = crossed || cpsi_soft_crosses(&line->obstacle[k], place_before(line, k, j, length),
+                                               vec3_at(line->position, j));
     return crossed;
 }
 
-double cpsi_soft_growth(const CpsiLine *line, double length) {
+double cpsi_soft_growth(const CpsiLine *line, int j, double length) {
     double sum = 0;
-    for (int k = 0; k < line->obstacle_count; k++) {
+    for (int k = 0; k < line->obstacle_count && !cpsi_line_is_held(line, j); k++) {
         const CpsiObstacle *o = &line->obstacle[k];
-        for (int j = 0; j < line->n && o->stiffness > 0; j++) {
-            if (cpsi_line_is_held(line, j)) continue;
-            const double now = depth_at(o, vec3_at(line->position, j)),
-                         was = depth_at(o, place_before(line, k, j, length));
-            sum += 0.5 * stiffness_at(line, o, j) * (now - was) * (now + was);
-        }
+        if (!(o->stiffness > 0)) continue;
+        const double now = cpsi_soft_depth(o, vec3_at(line->position, j)),
+                     was = cpsi_soft_depth(o, place_before(line, k, j, length));
+        sum += 0.5 * stiffness_at(line, o, j) * (now - was) * (now + was);
     }
     return sum;
 }
@@ -82,13 +84,13 @@ double cpsi_soft_damped(const CpsiLine *line, int c, double length) {
     const CpsiObstacle *o = cpsi_line_obstacle(line, c);
     if (!o || !(o->damping > 0)) return 0;
     const int j = node_at(line, c);
-    const double now = depth_at(o, vec3_at(line->position, j)),
-                 was = depth_at(o, place_before(line, line->obstacle_index[c], j, length));
+    const double now = cpsi_soft_depth(o, vec3_at(line->position, j)),
+                 was = cpsi_soft_depth(o, place_before(line, (int)(o - line->obstacle), j, length));
     return (line->reaction[c] - stiffness_at(line, o, j) * now) * (now - was);
 }
 
 double cpsi_soft_way_depth(const CpsiObstacle *obstacle, Vec3 x) {
-    const double depth = fmax(0, -cpsi_obstacle_gap(obstacle, x));
+    const double depth = cpsi_soft_depth(obstacle, x);
     return cpsi_obstacle_kind_has_radius(obstacle->kind) ? fmin(depth, 0.5 * obstacle->radius) : 0;
 }
 
@@ -115,7 +117,8 @@ double cpsi_soft_per_length(const CpsiLine *line, int j, bool before) {
     for (int k = 0; k < line->obstacle_count && !cpsi_line_is_held(line, j); k++) {
         const CpsiObstacle *o = &line->obstacle[k];
         if (!(o->stiffness > 0)) continue;
-        const double depth = depth_at(o, before ? cpsi_shift_carry(&line->shift[k], at) : at);
+        const double depth =
+            cpsi_soft_depth(o, before ? cpsi_shift_carry(&line->shift[k], at) : at);
         sum += 0.5 * o->stiffness * line->bearing_width * depth * depth;
     }
     return sum;

@@ -24,11 +24,16 @@ CpsiSoft cpsi_soft_spring(const CpsiLine *line, int c);
 /* ... of a stiffness k on an obstacle, with e in `past` and s in `span`. */
 CpsiSoft cpsi_soft_damp(const CpsiObstacle *obstacle, double stiffness, double span, double past);
 
+/* [m] How deep a place lies in an obstacle. */
+double cpsi_soft_depth(const CpsiObstacle *obstacle, Vec3 x);
+/* Does what was at `before`, on the obstacle as it is now, and is at `now` go into it or out of it,
+ * and it gives? */
+bool cpsi_soft_crosses(const CpsiObstacle *obstacle, Vec3 before, Vec3 now);
 /* Does node j go into or out of what gives in the step in time, whose length [s] is `length`? */
 bool cpsi_soft_is_crossed(const CpsiLine *line, int j, double length);
-/* [J] What the step in time has stored more in what gives below the nodes that are not held, and
- * what it has lost to the damping of contact c; `length` [s] is that of the step. */
-double cpsi_soft_growth(const CpsiLine *line, double length);
+/* [J] What the step in time has stored more in what gives below node j, 0 if that is held, and what
+ * it has lost to the damping of contact c; `length` [s] is that of the step. */
+double cpsi_soft_growth(const CpsiLine *line, int j, double length);
 double cpsi_soft_damped(const CpsiLine *line, int c, double length);
 
 /* [m] How much deeper than the surface slip at x is measured, in what is round: as deep as x, up to

@@ -401,11 +401,11 @@ void cpsi_step_program_clear(const CpsiLine *line, CpsiChainProgram *program) {
 void cpsi_step_program_unpack_positions(CpsiLine *line, const CpsiChainProgram *program,
                                         const CpsiStepScale *scale) {
     const double *base = base_of(line);
+    const bool rigid = !line->has_local_axes && !cpsi_line_has_soft(line);
     for (int j = 0; j < line->n; j++) {
         double u[3], shift[3];
         for (int a = 0; a < 3; a++) u[a] = scale->length * program->base.u[3 * j + a];
-        if (!line->has_local_axes && isfinite(line->gap[j]) && u[2] < -line->gap[j])
-            u[2] = -line->gap[j];
+        if (rigid && isfinite(line->gap[j]) && u[2] < -line->gap[j]) u[2] = -line->gap[j];
         cpsi_frame_from(shift, node_axes(line, program, j), u);
         for (int a = 0; a < 3; a++) line->position[3 * j + a] = base[3 * j + a] + shift[a];
     }

@@ -398,6 +398,12 @@ static bool is_late(const CpsiBalance *balance, const CpsiFree *at) {
            cpsi_soft_point_is_crossed(evolution, at->point, at->place);
 }
 
+/* ... and is it flung by the scheme? */
+static bool is_flung(const CpsiBalance *balance, const CpsiFree *at) {
+    return is_late(balance, at) && cpsi_point_loss(balance->evolution, at->point, at->place,
+                                                   at->obstacle, at->reaction, at->normal) < 0;
+}
+
 /* The lines of a group whose motion is rough (time_step.h), whose nodes are to be taken by Euler
  * steps, as are points that go into what gives or out of it: those lines are again as they were,
  * and so is the next step of their nodes. Returns whether there are any. */
@@ -406,7 +412,7 @@ static bool restart_rough(CpsiBalance *balance, int group) {
     bool any = restart_at_surface(balance);
     for (int item = 0; item < balance->line_count; item++)
         any = cpsi_line_is_rough(&evolution->line[balance->line[item]], evolution->interval) || any;
-    for (int k = 0; k < balance->count; k++) any = any || is_late(balance, &balance->at[k]);
+    for (int k = 0; k < balance->count; k++) any = any || is_flung(balance, &balance->at[k]);
     if (!any) return false;
     for (int k = 0; k < balance->count; k++) {
         CpsiPointInertia *inertia = &evolution->points.point[balance->at[k].point].inertia;

@@ -39,10 +39,15 @@ static char *copy_name(CpsiArena *arena, const char *name) {
     return copy;
 }
 
-/* Do contacts need axes of their own? Not on one plane with isotropic friction that stays. */
+/* Do contacts need axes of their own? Not on one plane with isotropic friction that stays. Where
+ * that gives, rounds refine what the interior-point loop leaves of reactions; lines with inertia
+ * have Newton's method for that, whose steps are short. */
 static bool scene_needs_local_axes(const CpsScene *scene) {
     if (scene->obstacle_count != 1 || scene->obstacle[0].moves) return scene->obstacle_count > 0;
     const CpsiObstacle only = cpsi_obstacle(scene->obstacle);
+    if (only.stiffness > 0)
+        for (int i = 0; i < scene->line_count; i++)
+            if (!(scene->line[i].inertia > 0)) return true;
     return cpsi_obstacle_needs_local_axes(&only);
 }
 
@@ -72,6 +77,7 @@ static bool scene_has_element_contacts(const CpsScene *scene, bool has_folds) {
 }
 
 static void take_contacts(CpsiLine *line, const CpsiWorkspaceSize *size, bool has_folds) {
+    line->obstacle_count = size->obstacles;
     line->has_local_axes = size->has_local_axes;
     line->has_folds = has_folds;
     line->contacts = size->contacts;
@@ -216,7 +222,6 @@ static CpsEvolution *layout(CpsiArena *arena, const CpsScene *scene, const CpsiC
 /* The obstacles of a line, and its axes: those of the one plane, else of the world. */
 static void fill_obstacles(CpsiLine *line, const CpsEvolution *evolution) {
     static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 1};
-    line->obstacle_count = evolution->obstacle_count;
     line->obstacle = evolution->obstacle;
     cpsi_workspace_attach(&evolution->workspace[0], line);
     const bool own = line->has_local_axes || line->obstacle_count == 0;

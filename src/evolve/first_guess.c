@@ -35,9 +35,10 @@ void cpsi_impose_plan(CpsiBalance *balance, int item) {
     const int i = balance->line[item];
     CpsiLine *line = &evolution->line[i];
     cpsi_workspace_attach(&evolution->workspace[0], line);
+    line->inertia.moved_in_span = false;
     for (int k = 0; k < evolution->obstacle_count; k++) {
-        evolution->workspace[0].scratch.turn[k] = evolution->angle[k];
-        evolution->workspace[0].scratch.shift[k] = evolution->shift[k];
+        line->turn[k] = evolution->angle[k];
+        line->shift[k] = evolution->shift[k];
     }
     memcpy(line->weight_before, evolution->move[i].weight_from, sizeof line->weight_before);
     memcpy(line->weight, evolution->move[i].weight_to, sizeof line->weight);

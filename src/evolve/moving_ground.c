@@ -4,11 +4,11 @@
 
 #include <math.h>
 
-#include "cable/contact.h"
+#include "cable/obstacle_side.h"
 
-/* Rounding of a quarter of a turn and of that part of a radius as they are asked for; and of a
- * quarter that a point has gone, by its places, which are known to the tolerance of points. */
-static const double ROUNDING = 1e-9, GONE_ROUNDING = 1e-6;
+/* Rounding of a quarter of a turn that a point has gone, by its places, which are known to the
+ * tolerance of points. */
+static const double GONE_ROUNDING = 1e-6;
 
 static bool moves(const CpsEvolution *evolution, int k) {
     return evolution->angle[k] != 0 || !cpsi_shift_is_none(&evolution->shift[k]);
@@ -38,7 +38,7 @@ static Vec3 carry_both(const CpsEvolution *evolution, const CpsiPoint *point, in
     const CpsiShift shift = evolution->shift[k], both = cpsi_shift_part(&shift, 1 - longer, 1);
     const Vec3 last = cpsi_obstacle_carry(on, vec3_load(point->before), &shift, angle),
                first =
-                   cpsi_obstacle_carry(on, vec3_load(point->inertia.before), &both, longer * angle);
+                   cpsi_obstacle_carry(on, vec3_load(point->inertia.past), &both, longer * angle);
     return vec3_axpy(evolution->formula.back, vec3_sub(last, first), last);
 }
 
@@ -55,11 +55,9 @@ Vec3 cpsi_ground_carry(const CpsEvolution *evolution, const CpsiPoint *point, in
                                share * evolution->angle[k]);
 }
 
-Vec3 cpsi_ground_way(const CpsEvolution *evolution, const CpsiPoint *point) {
-    const int k = point->report.obstacle;
+Vec3 cpsi_ground_way(const CpsEvolution *evolution, int k, Vec3 x) {
     if (k < 0 || !moves(evolution, k)) return vec3(0, 0, 0);
-    const Vec3 x = vec3_load(point->report.position),
-               before = cpsi_obstacle_turn(&evolution->obstacle[k], x, -evolution->angle[k]);
+    const Vec3 before = cpsi_obstacle_turn(&evolution->obstacle[k], x, -evolution->angle[k]);
     return vec3_add(vec3_sub(x, before), cpsi_shift_to(&evolution->shift[k], before));
 }
 
@@ -71,25 +69,16 @@ double cpsi_ground_rate(const CpsEvolution *evolution, const CpsiPoint *point) {
     return vec3_dot(way, vec3_load(point->report.normal)) / point->inertia.span;
 }
 
-/* May obstacle k have gone past the point? */
-static bool passes(const CpsEvolution *evolution, const CpsiPoint *point, int k) {
-    const CpsiObstacle *on = &evolution->obstacle[k];
-    const CpsiShift *shift = &evolution->shift[k];
-    if (on->kind == CPS_OBSTACLE_PLANE || cpsi_shift_is_none(shift)) return false;
-    const Vec3 x = vec3_load(point->report.position);
-    const double size = vec3_norm(cpsi_shift_to(shift, x)),
-                 way = vec3_norm(vec3_sub(x, vec3_load(point->before)));
-    return size > CPSI_MOST_SHIFT * on->radius * (1 + ROUNDING) &&
-           cpsi_obstacle_gap(on, x) <= size + way;
-}
-
 bool cpsi_ground_outruns(const CpsEvolution *evolution, const CpsiPoint *point, Vec3 start) {
-    const double most = CPSI_QUARTER * (1 + ROUNDING), gone = CPSI_QUARTER * (1 + GONE_ROUNDING);
+    const double gone = CPSI_QUARTER * (1 + GONE_ROUNDING);
     if (!(evolution->interval > 0)) return false;
-    for (int k = 0; k < evolution->obstacle_count; k++)
-        if (fabs(evolution->angle[k]) + vec3_norm(evolution->shift[k].turn) > most ||
-            passes(evolution, point, k))
+    const Vec3 x = vec3_load(point->report.position);
+    for (int k = 0; k < evolution->obstacle_count; k++) {
+        const CpsiShift *shift = &evolution->shift[k];
+        if (cpsi_obstacle_turns_too_far(evolution->angle[k], shift) ||
+            cpsi_obstacle_may_pass(&evolution->obstacle[k], shift, vec3_load(point->before), x, 0))
             return true;
+    }
     if (point->report.obstacle == CPS_NO_OBSTACLE) return false;
     const CpsiObstacle *on = &evolution->obstacle[point->report.obstacle];
     const double angle =

@@ -14,10 +14,10 @@ bool cpsi_ground_moves(const CpsEvolution *evolution);
 /* Where obstacle k has taken what a point began at: x* in a step in time, else where it was. */
 Vec3 cpsi_ground_carry(const CpsEvolution *evolution, const CpsiPoint *point, int k);
 
-/* [m] The way in the whole step of the obstacle that a point touches after it, at the point; [m/s]
- * and its velocity along the normal, which a turn about the obstacle's own axis has not. Both are 0
- * where it touches none. */
-Vec3 cpsi_ground_way(const CpsEvolution *evolution, const CpsiPoint *point);
+/* [m] The way in the whole step of obstacle k, where it comes to x; 0 of none, k < 0. */
+Vec3 cpsi_ground_way(const CpsEvolution *evolution, int k, Vec3 x);
+/* [m/s] The velocity along the normal, which a turn about the obstacle's own axis has not, of the
+ * obstacle that a point touches after the step, at the point; 0 where it touches none. */
 double cpsi_ground_rate(const CpsEvolution *evolution, const CpsiPoint *point);
 
 /* Is a step in time too long for a free point, which it has found and where what bears on it had

@@ -167,6 +167,26 @@ static double energy_of_landing(double mass, const double v[3], Vec3 n, double g
     return 0.5 * mass * rate * rate;
 }
 
+double cpsi_point_loss(CpsEvolution *evolution, int index, Vec3 place, int on, double reaction,
+                       Vec3 normal) {
+    const CpsiPoint *point = &evolution->points.point[index];
+    const CpsiPointInertia *inertia = &point->inertia;
+    const double rate = 1 / inertia->span,
+                 damped = cpsi_soft_point_damped(evolution, index, place, reaction);
+    const Vec3 way = vec3_sub(place, vec3_load(point->before)),
+               slip = vec3_sub(way, cpsi_ground_way(evolution, on, place)),
+               v0 = vec3_load(inertia->velocity),
+               v = vec3_scale(rate, vec3_sub(place, vec3_load(inertia->reference))),
+               acceleration = vec3_scale(rate, vec3_sub(v, vec3_load(inertia->rest_velocity)));
+    double mass = inertia->mass;
+    LineEnd end;
+    for (int k = 0; k < 2 * evolution->line_count; k++)
+        if (take_end(evolution, k, &end) && end.point == point) mass += end.inertia->mass[end.node];
+    return mass * (vec3_dot(acceleration, way) - 0.5 * vec3_dot(vec3_sub(v, v0), vec3_add(v, v0))) -
+           cpsi_soft_point_growth(evolution, index, place) - reaction * vec3_dot(normal, slip) -
+           fmax(0, damped);
+}
+
 /* What the water does to it: the energy of the buoyancy, what the scheme loses of that, which is
  * not negative since the energy is convex, and what the surface does as it rises. */
 static void add_water(CpsiPoint *point) {
@@ -186,14 +206,14 @@ static void close_ledger(const CpsEvolution *evolution, int index, const double 
     CpsiPoint *point = &evolution->points.point[index];
     CpsiPointInertia *inertia = &point->inertia;
     CpsPointReport *report = &point->report;
-    const Vec3 way = vec3_sub(vec3_load(point->position), vec3_load(point->before)),
-               slip = vec3_sub(way, cpsi_ground_way(evolution, point)),
-               n = vec3_load(report->normal);
+    const Vec3 place = vec3_load(point->position), n = vec3_load(report->normal),
+               way = vec3_sub(place, vec3_load(point->before)),
+               slip = vec3_sub(way, cpsi_ground_way(evolution, report->obstacle, place));
     const double gained = kinetic_energy(inertia->mass, velocity) - inertia->kinetic;
     CpsMotionLedger *ledger = &inertia->ledger;
-    const double stored = cpsi_soft_point_growth(evolution, index);
-    *ledger =
-        (CpsMotionLedger){.kinetic = gained, .damping = cpsi_soft_point_damped(evolution, index)};
+    const double stored = cpsi_soft_point_growth(evolution, index, place),
+                 damped = cpsi_soft_point_damped(evolution, index, place, report->reaction);
+    *ledger = (CpsMotionLedger){.kinetic = gained, .damping = damped};
     ledger->scheme = -vec3_dot(vec3_load(report->inertia), way) - gained - stored - ledger->damping;
     ledger->turnover = fabs(stored);
     add_water(point);

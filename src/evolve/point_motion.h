@@ -25,6 +25,12 @@ Vec3 cpsi_point_inertia(const CpsiPoint *point, Vec3 place);
 /* [N/m] minus its derivative. */
 double cpsi_point_inertia_stiffness(const CpsiPoint *point);
 
+/* [J] What the scheme loses if free point `index` comes to a place, where obstacle `on` bears it
+ * with a reaction [N] along a normal: to inertia, of the point and of the ends of lines there, and
+ * to what gives. Below 0 the point would gain it. */
+double cpsi_point_loss(CpsEvolution *evolution, int index, Vec3 place, int on, double reaction,
+                       Vec3 normal);
+
 /* The step has been taken, and the points are reported on: the ledger, and the step becomes the
  * past. */
 void cpsi_point_motion_advance(CpsEvolution *evolution);

@@ -33,7 +33,7 @@ static double next_drag(const CpsiLine *line, const CpsiDampedStep *step, double
 }
 
 bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                     const CpsEnd before[2], double *turn, bool known, CpsiRelaxation *done) {
+                     const CpsEnd before[2], bool known, CpsiRelaxation *done) {
     CpsEnd from[2] = {before[0], before[1]};
     double drag = FIRST_DRAG;
     *done = (CpsiRelaxation){0};
@@ -59,7 +59,7 @@ bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOp
         for (int i = 0; i < line->grasp_count; i++) line->grasp_before[i] = line->grasp[i].imposed;
         memcpy(line->weight_before, line->weight, sizeof line->weight);
         for (int i = 0; i < line->obstacle_count; i++) {
-            turn[i] = 0;
+            line->turn[i] = 0;
             line->shift[i] = (CpsiShift){0};
         }
         known = true;

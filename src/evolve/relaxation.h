@@ -15,11 +15,11 @@ typedef struct CpsiRelaxation {
 
 /* Move the line under line->end and line->turn against a viscous drag, which is adapted to the
  * motion, until it comes to rest: drag times motion is a small share of its forces. `before` are
- * the former ends; `turn` are the angles that line->turn points to, which the first time step
- * applies and which are then set to 0. Also true once the line falls away from all obstacles, which
- * the next step reports (cable/existence.h). False where it does not come to rest. Of the line's
- * report only the reports of its ends are set. */
+ * the former ends. The first time step applies the turns and shifts of the obstacles, which are
+ * then set to 0. Also true once the line falls away from all obstacles, which the next step reports
+ * (cable/existence.h). False where it does not come to rest. Of the line's report only the reports
+ * of its ends are set. */
 bool cpsi_line_relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                     const CpsEnd before[2], double *turn, bool known, CpsiRelaxation *done);
+                     const CpsEnd before[2], bool known, CpsiRelaxation *done);
 
 #endif

@@ -38,17 +38,12 @@ double cpsi_soft_point_stiffness(const CpsEvolution *evolution, int index, int o
                : evolution->obstacle[on].stiffness * evolution->points.point[index].area;
 }
 
-/* [m] How deep a place lies in an obstacle. */
-static double depth_in(const CpsiObstacle *on, Vec3 place) {
-    return fmax(0, -cpsi_obstacle_gap(on, place));
-}
-
 CpsiSoft cpsi_soft_point_spring(const CpsEvolution *evolution, int index, int on, Vec3 from) {
     const CpsiObstacle *obstacle = &evolution->obstacle[on];
     const double own = cpsi_soft_point_stiffness(evolution, index, on);
     if (!(obstacle->damping > 0) || !(evolution->interval > 0)) return (CpsiSoft){own, 0};
     return cpsi_soft_damp(obstacle, own, evolution->points.point[index].inertia.span,
-                          depth_in(obstacle, from));
+                          cpsi_soft_depth(obstacle, from));
 }
 
 /* Where the point was when the step began, on obstacle k as it is now. */
@@ -64,12 +59,9 @@ static bool may_bear(const CpsiPoint *point) {
 bool cpsi_soft_point_is_crossed(const CpsEvolution *evolution, int index, Vec3 place) {
     bool crossed = false;
     if (!may_bear(&evolution->points.point[index])) return false;
-    for (int k = 0; k < evolution->obstacle_count; k++) {
-        const CpsiObstacle *on = &evolution->obstacle[k];
-        if (!(on->stiffness > 0)) continue;
-        const double was = depth_in(on, place_before(evolution, index, k));
-        crossed = crossed || (depth_in(on, place) > 0) != (was > 0);
-    }
+    for (int k = 0; k < evolution->obstacle_count; k++)
+        crossed = crossed || cpsi_soft_crosses(&evolution->obstacle[k],
+                                               place_before(evolution, index, k), place);
     return crossed;
 }
 
@@ -104,20 +96,21 @@ static double stored_at(const CpsEvolution *evolution, int index, Vec3 place, bo
     return 0.5 * cpsi_soft_point_stiffness(evolution, index, on) * depth * depth;
 }
 
-double cpsi_soft_point_growth(const CpsEvolution *evolution, int index) {
+double cpsi_soft_point_growth(const CpsEvolution *evolution, int index, Vec3 place) {
     const CpsiPoint *point = &evolution->points.point[index];
     if (!may_bear(point)) return 0;
-    return stored_at(evolution, index, vec3_load(point->position), false) -
+    return stored_at(evolution, index, place, false) -
            stored_at(evolution, index, vec3_load(point->before), true);
 }
 
-double cpsi_soft_point_damped(const CpsEvolution *evolution, int index) {
+double cpsi_soft_point_damped(const CpsEvolution *evolution, int index, Vec3 place,
+                              double reaction) {
     const CpsiPoint *point = &evolution->points.point[index];
     double now;
-    const int on = deepest(evolution, vec3_load(point->position), false, &now);
+    const int on = deepest(evolution, place, false, &now);
     if (!may_bear(point) || on == CPS_NO_OBSTACLE || !(evolution->obstacle[on].damping > 0))
         return 0;
-    const double was = depth_in(&evolution->obstacle[on], place_before(evolution, index, on));
-    return (point->report.reaction - cpsi_soft_point_stiffness(evolution, index, on) * now) *
-           (now - was);
+    const double was =
+        cpsi_soft_depth(&evolution->obstacle[on], place_before(evolution, index, on));
+    return (reaction - cpsi_soft_point_stiffness(evolution, index, on) * now) * (now - was);
 }

@@ -25,9 +25,11 @@ bool cpsi_soft_point_is_crossed(const CpsEvolution *evolution, int index, Vec3 p
 bool cpsi_soft_point_is_between(const CpsEvolution *evolution, Vec3 place);
 /* [N] What the obstacle in which it lies deepest, if that gives, does to it where it is. */
 Vec3 cpsi_soft_point_push(const CpsEvolution *evolution, int index);
-/* [J] What obstacles that give have stored more under a point than before the step; and what that
- * in which it lies has lost to its damping in a step in time. 0 of one that is not free. */
-double cpsi_soft_point_growth(const CpsEvolution *evolution, int index);
-double cpsi_soft_point_damped(const CpsEvolution *evolution, int index);
+/* [J] What obstacles that give have stored more under a point, if it comes to a place, than before
+ * the step; and what that in which it lies has lost to its damping in a step in time, with a
+ * reaction [N]. 0 of one that is not free. */
+double cpsi_soft_point_growth(const CpsEvolution *evolution, int index, Vec3 place);
+double cpsi_soft_point_damped(const CpsEvolution *evolution, int index, Vec3 place,
+                              double reaction);
 
 #endif

@@ -57,13 +57,13 @@ static void raise(CpsiLine *line, Vec3 up, double height) {
 /* Move the line to rest with a given compliance. The choice among tensions, which an inextensible
  * line has (`forces`), is left out while it is elastic, where they are unique. */
 static void relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                  CpsiSubsteps *scratch, double compliance, int *iterations) {
+                  double compliance, int *iterations) {
     const double own = line->compliance;
     struct CpsiForceSet *forces = line->forces;
     CpsiRelaxation done;
     line->compliance = compliance;
     if (compliance > 0) line->forces = NULL;
-    (void)cpsi_line_relax(line, program, options, line->end, scratch->turn, false, &done);
+    (void)cpsi_line_relax(line, program, options, line->end, false, &done);
     line->compliance = own;
     line->forces = forces;
     *iterations += done.iterations;
@@ -71,13 +71,13 @@ static void relax(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptio
 
 /* Raise the line and let it down. */
 static void let_down(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
-                     CpsiSubsteps *scratch, double height, int *iterations) {
+                     double height, int *iterations) {
     const double weight = vec3_norm(vec3_load(line->weight));
     raise(line, vec3_scale(-1 / weight, vec3_load(line->weight)), height * line->length);
     double soft = SOFT / (weight * line->length);
     for (int k = 0; k < STAGES && soft > line->compliance; k++, soft /= STIFFER)
-        relax(line, program, options, scratch, soft, iterations);
-    relax(line, program, options, scratch, line->compliance, iterations);
+        relax(line, program, options, soft, iterations);
+    relax(line, program, options, line->compliance, iterations);
 }
 
 void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
@@ -85,15 +85,15 @@ void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
     CpsiRelaxation done;
     cpsi_substeps_save(line, scratch);
     for (int k = 0; k < line->obstacle_count; k++) {
-        scratch->turn[k] = 0;
-        scratch->shift[k] = (CpsiShift){0};
+        line->turn[k] = 0;
+        line->shift[k] = (CpsiShift){0};
     }
     const bool short_of = cpsi_line_step_falls_short(line, options);
     if (!short_of) cpsi_line_step(line, program, options);
     int iterations = line->report.iteration_count;
     if (line->report.outcome == CPS_OUTCOME_STALLED) {
         cpsi_substeps_restore(line, scratch);
-        if (!cpsi_line_relax(line, program, options, line->end, scratch->turn, false, &done))
+        if (!cpsi_line_relax(line, program, options, line->end, false, &done))
             cpsi_substeps_restore(line, scratch);
         cpsi_line_step(line, program, options);
         iterations += done.iterations + line->report.iteration_count;
@@ -102,7 +102,7 @@ void cpsi_line_place_statically(CpsiLine *line, CpsiChainProgram *program,
         vec3_norm(vec3_load(line->weight)) > 0 ? sizeof HEIGHT / sizeof *HEIGHT : 0;
     for (size_t i = 0; i < heights && line->report.outcome == CPS_OUTCOME_STALLED; i++) {
         cpsi_substeps_restore(line, scratch);
-        let_down(line, program, options, scratch, HEIGHT[i], &iterations);
+        let_down(line, program, options, HEIGHT[i], &iterations);
         cpsi_line_step(line, program, options);
         iterations += line->report.iteration_count;
     }

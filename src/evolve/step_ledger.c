@@ -45,7 +45,7 @@ void cpsi_coupling_ledger(CpsEvolution *evolution) {
 /* [J] The work that an obstacle which turns or moves does on a point that touches it. */
 static double work_on_point(const CpsEvolution *evolution, const CpsiPoint *point) {
     const CpsPointReport *report = &point->report;
-    return vec3_dot(cpsi_ground_way(evolution, point),
+    return vec3_dot(cpsi_ground_way(evolution, report->obstacle, vec3_load(point->position)),
                     vec3_axpy(report->reaction, vec3_load(report->normal),
                               vec3_load(report->friction)));
 }
@@ -101,7 +101,8 @@ static double add_points(const CpsEvolution *evolution, CpsStepReport *step) {
 /* [J] What obstacles that give have stored more under points. */
 static double stored_below(const CpsEvolution *evolution) {
     double sum = 0;
-    for (int i = 0; i < evolution->points.count; i++) sum += cpsi_soft_point_growth(evolution, i);
+    for (int i = 0; i < evolution->points.count; i++)
+        sum += cpsi_soft_point_growth(evolution, i, vec3_load(evolution->points.point[i].position));
     return sum;
 }
 

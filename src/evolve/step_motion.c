@@ -2,7 +2,7 @@
 /* The motion of lines, points and bodies in a step, summed. */
 #include <math.h>
 
-#include "capstan/evolve.h"
+#include "evolve/state.h"
 
 static void add_motion(const CpsMotionLedger *ledger, CpsMotionLedger *sum) {
     sum->kinetic += ledger->kinetic;
@@ -29,10 +29,12 @@ void cps_ledgers_add(const CpsLedger *ledger, const CpsMotionLedger *motion, Cps
     add_motion(motion, motion_sum);
 }
 
-/* [J] Sizes of the entries of the ledger of a line, which the turnover of its motion has where the
- * line moved with inertia, or came to rest; that of others is the scheme's alone. */
-static double left_out(const CpsMotionLedger *motion, const CpsLedger *ledger) {
-    if (motion->turnover != fabs(motion->scheme)) return 0;
+/* [J] Sizes of the entries of a line's ledger that are not in the turnover of its motion. That of a
+ * line with inertia has all of them, if it moved or came to rest, and is 0 otherwise; that of
+ * others has none. */
+static double left_out(const CpsiLine *line) {
+    const CpsLedger *ledger = &line->report.ledger;
+    if (line->has_inertia && line->inertia.ledger.turnover > 0) return 0;
     return fabs(ledger->ends) + fabs(ledger->obstacles) + fabs(ledger->loads) +
            fabs(ledger->winches) + fabs(ledger->elastic) + fabs(ledger->gravity) +
            fabs(ledger->dissipated);
@@ -44,8 +46,7 @@ CpsStepMotion cps_evolution_motion(const CpsEvolution *evolution) {
         const CpsLineMotion motion = cps_evolution_line_motion(evolution, i);
         add_motion(&motion.ledger, &sum.ledger);
         sum.kinetic += motion.kinetic;
-        const CpsLineReport report = cps_evolution_line_report(evolution, i);
-        sum.ledger.turnover += left_out(&motion.ledger, &report.ledger);
+        sum.ledger.turnover += left_out(&evolution->line[i]);
         if (!motion.is_moving) continue;
         sum.landed += motion.landed;
         sum.changed += motion.changed;

@@ -168,7 +168,7 @@ static void weight_at(const CpsiMove *move, double share, double weight[3]) {
 static void shift_obstacles(const CpsiLine *line, const CpsiMove *move, CpsiSubsteps *scratch,
                             double from, double to) {
     for (int k = 0; k < line->obstacle_count; k++) {
-        CpsiShift *shift = &scratch->shift[k];
+        CpsiShift *shift = &line->shift[k];
         *shift = (CpsiShift){0};
         if (!move->shift) continue;
         *shift = cpsi_shift_part(&move->shift[k], from, to);
@@ -195,7 +195,8 @@ void cpsi_substeps_impose(CpsiLine *line, const CpsiMove *move, CpsiSubsteps *sc
         line->grasp_before[k] = grasp_at(move, k, from);
         line->grasp[k].imposed = grasp_at(move, k, to);
     }
-    for (int k = 0; k < line->obstacle_count; k++) scratch->turn[k] = (to - from) * move->angle[k];
+    line->inertia.moved_in_span = false;
+    for (int k = 0; k < line->obstacle_count; k++) line->turn[k] = (to - from) * move->angle[k];
     shift_obstacles(line, move, scratch, from, to);
 }
 
@@ -501,7 +502,7 @@ static bool relax(Advance *substeps, double from, double to) {
     impose(substeps, from, to);
     line->last_change.known = false;
     const bool rests = cpsi_line_relax(line, substeps->program, substeps->options, line->end_before,
-                                       substeps->scratch->turn, substeps->known, &done);
+                                       substeps->known, &done);
     substeps->iterations += done.iterations;
     if (!rests || creeps_past(substeps)) {
         cpsi_substeps_restore(line, substeps->scratch);

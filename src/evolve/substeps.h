@@ -17,8 +17,6 @@ typedef struct CpsiSubsteps {
     double stored[2];       /* [m] on the drums of winches */
     double *position;       /* (n, 3) */
     double *trial;          /* (n, 4), NULL without a path tolerance */
-    double *turn;           /* (obstacles) what line->turn points to */
-    CpsiShift *shift;       /* (obstacles) likewise */
     CpsiObstacle *obstacle; /* (obstacles) where they are at the end of a part */
 } CpsiSubsteps;
 

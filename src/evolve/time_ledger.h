@@ -26,6 +26,10 @@
  * before it. */
 void cpsi_time_ledger(CpsiLine *line, double length, const unsigned char *state);
 
+/* [J] What the scheme has lost at node j in such a step, which bears on nothing rigid: to inertia
+ * and to what gives. Below 0 the node has gained it. */
+double cpsi_node_loss(const CpsiLine *line, int j, double length);
+
 /* [J] The kinetic energy of the line. */
 double cpsi_kinetic_energy(const CpsiLine *line);
 

@@ -16,7 +16,7 @@
  * the past as well, so that it does not rebound; after it has landed its next step is an Euler
  * step, for friction may have stopped it; a step in which an element is snatched taut is taken
  * again as an Euler step of its two nodes, and their next step is one too; so is one in which a
- * node goes into what gives, or out of it, which would fling it out with more than it had. */
+ * node goes into what gives, or out of it, if that would fling it with more than it had. */
 #include "evolve/time_step.h"
 
 #include <math.h>
@@ -28,6 +28,7 @@
 #include "cable/field.h"
 #include "cable/inertia_field.h"
 #include "cable/line_step.h"
+#include "cable/obstacle_side.h"
 #include "cable/soft.h"
 #include "evolve/pace.h"
 #include "evolve/time_ledger.h"
@@ -36,8 +37,6 @@
 static const double SLACK = 1e-9;
 /* Two normals with a sine below this are one. */
 static const double PARALLEL = 1e-6;
-/* Rounding of a quarter of a turn, and of that part of a radius. */
-static const double ROUNDING = 1e-9;
 
 static bool is_slack(const CpsiLine *line, const double *x, int e) {
     const double size = vec3_norm(vec3_sub(vec3_at(x, e + 1), vec3_at(x, e)));
@@ -94,6 +93,7 @@ static double attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
     const double share =
         all || !ground_moves(line, move) ? 1 : step->formula.span / step->formula.length;
     cpsi_substeps_impose(line, move, scratch, 1 - share, 1);
+    line->inertia.moved_in_span = share < 1;
     memcpy(line->weight_before, move->weight_from, sizeof line->weight_before);
     cpsi_line_step(line, program, options);
     for (int j = 0; j < line->n; j++)
@@ -103,42 +103,34 @@ static double attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
     return share;
 }
 
-/* May round obstacle k, where it is now, have met node j as both moved by more than the obstacle
- * may? */
-static bool outruns(const CpsiLine *line, const CpsiShift *shift, int k, int j) {
-    const Vec3 x = vec3_at(line->position, j);
-    const double size = vec3_norm(cpsi_shift_to(shift, x)),
-                 way = vec3_norm(vec3_sub(x, vec3_at(line->inertia.start, j))),
-                 element = line->element_length[j < line->n - 1 ? j : j - 1];
-    return size > CPSI_MOST_SHIFT * line->obstacle[k].radius * (1 + ROUNDING) &&
-           cpsi_obstacle_gap(&line->obstacle[k], x) <= size + way + element;
-}
-
 /* Is the step too long for an obstacle that moves in it? It may go past the line then, and the way
  * of what slips on it is not known. A quasi-static step is divided there (substeps.c). */
 static bool ground_outruns(const CpsiLine *line, const CpsiMove *move) {
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiShift *shift = move->shift ? &move->shift[k] : NULL;
-        const double turn = fabs(move->angle[k]) + (shift ? vec3_norm(shift->turn) : 0);
-        if (turn > CPSI_QUARTER * (1 + ROUNDING)) return true;
-        if (!shift || line->obstacle[k].kind == CPS_OBSTACLE_PLANE || cpsi_shift_is_none(shift))
-            continue;
-        for (int j = 0; j < line->n; j++)
-            if (outruns(line, shift, k, j)) return true;
+        if (cpsi_obstacle_turns_too_far(move->angle[k], shift)) return true;
+        if (!shift) continue;
+        for (int j = 0; j < line->n; j++) {
+            const Vec3 x = vec3_at(line->position, j);
+            const double element = line->element_length[j < line->n - 1 ? j : j - 1];
+            if (cpsi_obstacle_may_pass(&line->obstacle[k], shift, vec3_at(line->inertia.start, j),
+                                       x, element))
+                return true;
+        }
     }
     return false;
 }
 
 /* The elements that were slack and are taut, and the nodes that have gone into or out of what
- * gives in a step of length h. Such nodes are to be taken by Euler steps: returns whether one was
- * not. */
+ * gives in a step of length h. Such nodes are to be taken by Euler steps next: returns whether one
+ * was not and is to be now, since it is beside a snatched element or has gained energy. */
 static bool find_rough(CpsiLine *line, double h) {
     CpsiInertia *inertia = &line->inertia;
     bool found = false;
     inertia->snatched = 0;
     for (int j = 0; cpsi_line_has_soft(line) && j < line->n; j++) {
         if (cpsi_line_is_held(line, j) || !cpsi_soft_is_crossed(line, j, h)) continue;
-        found = found || !inertia->restarts[j];
+        found = found || (!inertia->restarts[j] && cpsi_node_loss(line, j, h) < 0);
         inertia->restarts[j] = true;
     }
     for (int e = 0; e + 1 < line->n; e++) {
@@ -317,6 +309,7 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     if (cpsi_line_has_damping(line) && !inertia->is_moving) cpsi_line_begin_damping(line);
     inertia->is_moving = true;
     memcpy(inertia->velocity_given, move->has_velocity, sizeof inertia->velocity_given);
+    memcpy(inertia->past, inertia->start, places);
     memcpy(inertia->start, line->position, places);
     memcpy(inertia->start_velocity, inertia->velocity, places);
     cpsi_substeps_save(line, scratch);
@@ -361,7 +354,7 @@ bool cpsi_line_is_rough(CpsiLine *line, double h) {
     if (!line->has_inertia) return false;
     for (int j = 0; j < line->n; j++) {
         inertia->late[j] = !cpsi_line_is_held(line, j) && cpsi_soft_is_crossed(line, j, h);
-        late = late || (inertia->late[j] && inertia->span[j] < h);
+        late = late || (inertia->late[j] && inertia->span[j] < h && cpsi_node_loss(line, j, h) < 0);
     }
     for (int e = 0; e + 1 < line->n; e++) {
         if (!is_slack(line, inertia->start, e) || is_slack(line, line->position, e)) continue;

@@ -46,8 +46,6 @@ CpsStatus cpsi_friction_sets_make(const CpsScene *scene, CpsiFrictionSets *out,
 void cpsi_workspace_layout(CpsiWorkspace *workspace, CpsiArena *arena,
                            const CpsiWorkspaceSize *size) {
     const int contacts = size->contacts + size->element_contacts;
-    CPSI_PLACE(arena, workspace->scratch.turn, size->obstacles + 1);
-    CPSI_PLACE(arena, workspace->scratch.shift, size->obstacles + 1);
     CPSI_PLACE(arena, workspace->scratch.obstacle, size->obstacles + 1);
     cpsi_substeps_layout(&workspace->scratch, arena, size->nodes, contacts, size->has_local_axes,
                          size->has_path_tolerance);
@@ -71,8 +69,6 @@ void cpsi_workspace_connect(CpsiWorkspace *workspace) {
 }
 
 void cpsi_workspace_attach(CpsiWorkspace *workspace, CpsiLine *line) {
-    line->turn = workspace->scratch.turn;
-    line->shift = workspace->scratch.shift;
     line->friction_set = (const CpsiFrictionSet *const *)workspace->friction_sets.set;
     if (line->compliance == 0) line->forces = &workspace->forces;
 }

@@ -64,7 +64,7 @@ bool cpsi_obstacle_is_isotropic(const CpsiObstacle *o) {
 }
 
 bool cpsi_obstacle_needs_local_axes(const CpsiObstacle *o) {
-    return o->kind != CPS_OBSTACLE_PLANE || !cpsi_obstacle_is_isotropic(o) || o->stiffness > 0;
+    return o->kind != CPS_OBSTACLE_PLANE || !cpsi_obstacle_is_isotropic(o);
 }
 
 bool cpsi_obstacle_is_round(const CpsiObstacle *o) {

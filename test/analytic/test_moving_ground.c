@@ -197,12 +197,40 @@ static void no_step_is_too_long_for_a_post(void **state) {
     CHECK_INT(push(1, 0.6, 0, &middle), 1);
 }
 
+/* A line at rest on a deck goes with it, by three radii of its edges in a step. */
+static void a_line_goes_with_a_deck(void **state) {
+    (void)state;
+    const double by[3] = {1.5, -0.6, 0}, time = 1;
+    const int count = 10;
+    TimeRig rig;
+    begin(&rig, CPS_TIME_SCHEME_BDF2, 0.4);
+    rig.plane.kind = CPS_OBSTACLE_BOX;
+    memcpy(rig.plane.point, (double[]){1, 0, -0.5}, sizeof rig.plane.point);
+    memcpy(rig.plane.shape.size, (double[]){6, 4, 1}, sizeof rig.plane.shape.size);
+    rig.plane.radius = 0.05;
+    memcpy(rig.line.velocity, by, sizeof by);
+    CpsShift shift = {.obstacle = 0};
+    memcpy(shift.by, by, sizeof by);
+    CpsStage *stage = time_stage(&rig, time, count);
+    stage->shift = &shift;
+    stage->shift_count = 1;
+    TimeRun run = time_open(&rig);
+    Sums sums = {0};
+    steps(run.evolution, count, &sums);
+    const double *place = cps_evolution_line_view(run.evolution, 0).position;
+    time_report("deck", "x of the line [m]", 2 + by[0], place[0]);
+    time_report("deck", "y of the line [m]", by[1], place[1]);
+    for (int a = 0; a < 3; a++) CHECK_NEAR(place[a], (a == 0 ? 2 : 0) + by[a], 1e-9);
+    cps_evolution_destroy(run.evolution);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_belt_takes_a_line_along),
         cmocka_unit_test(a_table_takes_a_line_round),
         cmocka_unit_test(a_floor_throws_a_line_up),
         cmocka_unit_test(no_step_is_too_long_for_a_post),
+        cmocka_unit_test(a_line_goes_with_a_deck),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,6 +35,17 @@ history:
   - {name: up, steps: 3, rope.B: {move: [-1, 0, 2]}}
   - {name: off, steps: 1, rope.A: {force: [0, 0, 9]}, rope.B: {force: [5, 0, 80]}}
 """
+# a body is moved aside and turned on through half a turn, a second one stands still
+BODIES = """bodies:
+  barge: {held: [3, 1, 0], rotation: {roll_pitch_yaw: [0, 0, 120]}}
+  quay: {held: [-20, 1, 2]}
+points: {fairlead: {body: barge, at: [1, 0, 0]}, ring: {body: quay, at: [0, 0, -2]}}
+lines:
+  rope: {length: 24, elements: 6, weight: 9, stiffness: 1e4, start: static, ends: {A: {point: ring}, B: {point: fairlead}}}
+history:
+  - {name: aside, steps: 1, barge.body: {move: [-0.5, 0, 0]}}
+  - {name: turn, steps: 4, barge.body: {move: [0, 0.25, 0], rotation: {roll_pitch_yaw: [0, 0, 220]}}}
+"""
 CURVES = (("A.tension", "B.tension"), ("A.uplift", "B.uplift"), ("grounded", "slipping"))
 TWO = """system:
   parameters: [a, b]
@@ -85,7 +96,32 @@ def check_over_steps(directory, lines):
             expect("history.svg: a value", abs(bottom + (value - low)/(high - low)*(top - bottom) - y) < 0.11, (number, value, y))
 
 
+def check_bodies(directory):
+    """The frames of bodies: those in which one moves, with the values of bodies.csv less the place where it begins."""
+    with open(directory + "/bodies.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))[1:]
+    found = [[tuple(map(float, point.split(","))) for point in element.get("points").split()]
+             for element in xml.parse(directory + "/history.svg").iter() if element.tag.endswith("polyline")]
+    wanted = []
+    for key, first in (("x", (3, -20)), ("y", (1, 1)), ("yaw", (0, 0))):
+        for body, begin in zip(("barge", "quay"), first):
+            curve = [float(row[key]) - begin for row in rows if row["body"] == body]
+            cuts = [0] + [i for i in range(1, len(curve)) if abs(curve[i] - curve[i - 1]) > 180] + [len(curve)]
+            wanted += [(key, curve[a:b]) for a, b in zip(cuts, cuts[1:])]
+    expect("history.svg: curves of bodies", [len(values) for _, values in wanted] == [6, 6, 6, 6, 4, 2, 6] and len(found) >= len(wanted), wanted)
+    for key in ("x", "y", "yaw"):
+        both = [(value, y) for (of, values), curve in zip(wanted, found) if of == key for value, (_, y) in zip(values, curve)]
+        (low, bottom), (high, top) = min(both), max(both)
+        expect(f"history.svg: {key} of bodies", bottom - top > 100 and all(
+            abs(bottom + (value - low)/(high - low)*(top - bottom) - y) < 0.11 for value, y in both), both)
+    words = read(directory + "/history.svg")
+    expect("history.svg: what bodies do", all(word in words for word in ("surge x (m)", "sway y (m)", "yaw (degrees)", "barge", "quay"))
+           and not any(word in words for word in ("heave", "roll", "pitch")), words)
+
+
 def main():
+    run("run", BODIES, "-o", "bodies", "--no-paraview")
+    check_bodies("bodies")
     run("run", STEPS, "-o", "steps", "--no-paraview", code=5)
     check_over_steps("steps", ("rope", "wire"))
     words = read("steps/history.svg")

@@ -5,6 +5,7 @@ stopped and resumed has the same numbers, and mistakes are told with their place
 
 Written by nothing but the layout of classic netCDF files (../property/result_file.py).
 """
+import csv
 import math
 import os
 import sys
@@ -46,6 +47,22 @@ history:
   - {name: turn, bollard.turn: 90, steps: 2}
   - {name: on, bollard.obstacle: {move: [0.3, 0.2, 0], turn: 20, axis: [0.1, 0, 1], about: [3, 0.8, 0]}, bollard.turn: 30, steps: 8}
   - {name: belt, ground.obstacle: {move: [0.2, 0, 0], turn: 10, axis: [0, 0, 1], about: [6, 0, 0]}, steps: 6}
+"""
+# the first rope goes with the bed from point to point, the second is pushed by a ball that swings, for which its step is taken in parts
+BESIDE = """
+capstan: 1
+obstacles:
+  bed: {plane: {}, friction: 0.5}
+  ball: {sphere: {centre: [5, 10, 0.5], radius: 0.5}, friction: 0.5}
+points:
+  P: {held: [0, 0, 0]}
+  Q: {held: [6, 0, 0]}
+lines:
+  first:""" + ROPE.replace("ENDS", "{A: {point: P}, B: {point: Q}}") + """
+  second:""" + ROPE.replace("[0, 0, 0]", "[0, 9.2, 0]").replace("[6, 0, 0]", "[6, 9.2, 0]").replace("ENDS", "{A: {held: [0, 9.2, 0]}, B: free}") + """
+history:
+  - {name: go, bed.obstacle: {move: [0.1, 0, 0]}, P.point: {move: [0.1, 0, 0]}, Q.point: {move: [0.1, 0, 0]}, second.A: {move: [0.1, 0, 0]},
+     ball.obstacle: {turn: 10, axis: [0, 0, 1], about: [0, 10, 0.5]}}
 """
 # (variable, step, index, change)
 FALSIFIED = (("obstacle_shift", 0, 4, 1e-6), ("obstacle_shift", 4, 0, 1e-6), ("obstacle_shift_turn", 9, 5, 1e-6), ("obstacle_shift_about", 9, 3, 1e-4),
@@ -110,6 +127,15 @@ def bollard(folder, stiffness):
     return len(FALSIFIED)
 
 
+def goes_along(folder, stiffness):
+    """What goes with the bed does not slip on it, nor do its ends at points, whatever another line does in the step."""
+    _, out, results = solve(folder, BESIDE, stiffness, 0)
+    assert results.get("first_substeps", 0)[0] == 1 < results.get("second_substeps", 0)[0]
+    with open(os.path.join(out, "history.csv"), encoding="utf-8") as file:
+        row = list(csv.DictReader(file))[-1]
+    assert abs(float(row["first.grounded"]) - 6) < 1e-12 and float(row["first.slipping"]) == 0, (row["first.grounded"], row["first.slipping"])
+
+
 def mistakes(folder):
     text = BOLLARD.replace("STIFFNESS", "20000")
     for wrong, words in BAD:
@@ -130,6 +156,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for stiffness in ("20000", ".inf"):
             tilt(folder, stiffness)
+            goes_along(folder, stiffness)
         copies = sum(bollard(folder, stiffness) for stiffness in ("20000", ".inf"))
         resumed(CAPSTAN, folder, BOLLARD.replace("STIFFNESS", "20000").replace("steps: 8", "steps: 200"),
             300000, 214, (10, 30, 100, 213),

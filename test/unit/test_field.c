@@ -22,8 +22,6 @@ typedef struct Fixture {
     CpsiChainProgram program;
     CpsiLeastMotion least;
     CpsiObstacle bed;
-    double turn[1];
-    CpsiShift shift[1];
     double ea;
 } Fixture;
 
@@ -47,8 +45,6 @@ static void begin(Fixture *f, int n, double length, double ea, bool lies, const 
     line->compliance = 1 / ea;
     line->obstacle = &f->bed;
     line->obstacle_count = lies;
-    line->turn = f->turn;
-    line->shift = f->shift;
     line->has_field = line->has_node_loads = true;
     lay_out(f);
     assert_true(cpsi_arena_allocate(&f->arena));

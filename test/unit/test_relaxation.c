@@ -22,8 +22,7 @@ typedef struct Fixture {
     CpsiLine line;
     CpsiChainProgram program;
     CpsiObstacle bed;
-    double turn[1], start[6];
-    CpsiShift shift[1];
+    double start[6];
 } Fixture;
 
 static void lay_out(Fixture *f) {
@@ -45,8 +44,6 @@ static void begin(Fixture *f, double length, double stiffness, double weight, bo
     line->compliance = 1 / stiffness;
     line->obstacle = &f->bed;
     line->obstacle_count = lies;
-    line->turn = f->turn;
-    line->shift = f->shift;
     lay_out(f);
     assert_true(cpsi_arena_allocate(&f->arena));
     lay_out(f);
@@ -148,8 +145,7 @@ static void rests(void **state) {
         begin(&f, l, stiffness, weight, false, 0, to, none);
         const CpsiStepOptions options = step_options();
         CpsiRelaxation done;
-        assert_true(
-            cpsi_line_relax(&f.line, &f.program, &options, f.line.end, f.turn, false, &done));
+        assert_true(cpsi_line_relax(&f.line, &f.program, &options, f.line.end, false, &done));
         /* at rest drag times motion is 1e-7 of the loads, which a pendulum answers with as much of
          * its length, a line with less */
         CHECK_NEAR(f.line.position[3] / l, 0, 1e-5);
