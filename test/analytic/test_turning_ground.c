@@ -3,6 +3,7 @@
  * that turns about its own axis, and to one that is taken along. What sticks is where the ground
  * has taken it, whatever the length of the steps. Each figure is printed. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "time_rig.h"
@@ -29,6 +30,7 @@ typedef struct Ride {
     double imbalance, turnover, dissipated, obstacles;
     double off;         /* [m] the farthest that a node has been from there after a stage */
     double lately;      /* [m] ... and after the last one */
+    bool hands_over;    /* each step is taken by another evolution, from a state that is saved */
     int steps, lengths; /* taken, and of how many other lengths than the one before */
 } Ride;
 
@@ -116,10 +118,26 @@ static void carry(Ride *ride, const Motion *motion) {
     }
 }
 
+static void hand_over(Ride *ride) {
+    CpsEvolution *fresh;
+    CpsError err;
+    const size_t size = cps_evolution_state_size(ride->evolution);
+    void *state = malloc(size);
+    assert_non_null(state);
+    cps_evolution_save(ride->evolution, state);
+    if (cps_evolution_create(&ride->rig.scene, &fresh, &err) ||
+        cps_evolution_load(fresh, state, size, &err))
+        fail_msg("%s", err.message);
+    free(state);
+    cps_evolution_destroy(ride->evolution);
+    ride->evolution = fresh;
+}
+
 static void take_stage(Ride *ride, int s, double *length) {
     CpsError err;
     const double end = cps_evolution_time(ride->evolution) + ride->motion[s].duration;
     while (cps_evolution_time(ride->evolution) < end - 1e-9) {
+        if (ride->hands_over) hand_over(ride);
         if (cps_evolution_step(ride->evolution, &err)) fail_msg("%s", err.message);
         const CpsLineReport report = cps_evolution_line_report(ride->evolution, 0);
         const CpsLineMotion motion = cps_evolution_line_motion(ride->evolution, 0);
@@ -209,6 +227,17 @@ static void a_table_tilts(void **state) {
     go(&ride, "table that tilts");
 }
 
+/* The last two places are part of a state. */
+static void states_go_on(void **state) {
+    (void)state;
+    Ride ride;
+    begin(&ride, CPS_TIME_SCHEME_BDF2, 50);
+    ride.hands_over = true;
+    add(&ride, (Motion){.turn = {0, 0, 2}, .duration = 2, .steps = 10});
+    add(&ride, (Motion){.turn = {0, 0, -1}, .duration = 1, .steps = 5});
+    go(&ride, "table, states");
+}
+
 /* Steps that grow from a short one. */
 static void steps_of_any_length(void **state) {
     (void)state;
@@ -254,6 +283,7 @@ int main(void) {
         cmocka_unit_test(a_table_turns_to_and_fro),
         cmocka_unit_test(a_table_goes_aside),
         cmocka_unit_test(a_table_tilts),
+        cmocka_unit_test(states_go_on),
         cmocka_unit_test(steps_of_any_length),
         cmocka_unit_test(a_drum_turns),
     };
