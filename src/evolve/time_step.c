@@ -332,7 +332,7 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     }
     const bool stalled = !cps_outcome_is_certified(line->report.outcome) &&
                          !cps_outcome_is_final(line->report.outcome);
-    if (stalled && step->scheme != CPS_TIME_SCHEME_EULER && !step->restarts && !step->once) {
+    if (stalled && step->scheme != CPS_TIME_SCHEME_EULER && !step->restarts && !step->in_group) {
         /* x* of (9b) may lie where contacts are not those of the step: by (9c) it is x_n */
         cpsi_substeps_restore(line, scratch);
         line->last_change.known = goes_on;
