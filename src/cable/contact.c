@@ -18,6 +18,7 @@
 
 #include <string.h>
 
+#include "cable/contact_carry.h"
 #include "cable/contact_detection.h"
 #include "cable/contact_surface.h"
 #include "cable/obstacle_side.h"
@@ -92,9 +93,8 @@ static void set_reference_axes(CpsiLine *line, int c) {
 
 /* The reference position of contact c, carried along by its obstacle as that turns. */
 static Vec3 carried_along(const CpsiLine *line, int c) {
-    const Vec3 x = cpsi_line_place(line, line->reference, c);
     const int k = line->obstacle_index[c];
-    return k < 0 ? x : cpsi_obstacle_carry(&line->obstacle[k], x, &line->shift[k], line->turn[k]);
+    return k < 0 ? cpsi_line_place(line, line->reference, c) : cpsi_contact_carry(line, k, c, true);
 }
 
 /* The displacement to x from the carried-along reference of contact c, projected onto the plane of
@@ -155,11 +155,7 @@ static Vec3 first_normal(const CpsiLine *line, int c, Vec3 from, Vec3 to) {
 
 /* ... from the reference, shifted along, to the point `to`. */
 static Vec3 reference_normal(const CpsiLine *line, int c, Vec3 to) {
-    const int k = line->obstacle_index[c];
-    const Vec3 from =
-        cpsi_obstacle_carry(&line->obstacle[k], cpsi_line_place(line, line->reference, c),
-                            &line->shift[k], 0);
-    return first_normal(line, c, from, to);
+    return first_normal(line, c, cpsi_contact_carry(line, line->obstacle_index[c], c, false), to);
 }
 
 /* Update the angle by which contact c has moved round its obstacle; its normal was `before` at the

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "cable/contact_carry.h"
 #include "geometry/folds.h"
 
 /* [-] Two normals whose product is this near to 1 are those of one foot. */
@@ -77,12 +78,8 @@ static void restore_contact(CpsiLine *line, int c, const SavedContact *saved) {
 }
 
 Vec3 cpsi_contact_reference_normal(const CpsiLine *line, int k, int c) {
-    return k < 0
-               ? vec3(0, 0, 0)
-               : cpsi_obstacle_normal(&line->obstacle[k],
-                                      cpsi_obstacle_carry(&line->obstacle[k],
-                                                          cpsi_line_place(line, line->reference, c),
-                                                          &line->shift[k], 0));
+    return k < 0 ? vec3(0, 0, 0)
+                 : cpsi_obstacle_normal(&line->obstacle[k], cpsi_contact_carry(line, k, c, false));
 }
 
 /* What node j may touch: an obstacle, or one of its feet on an obstacle with folds. */

@@ -3,7 +3,8 @@
  *
  * With x* and v* of the scheme and k its span of time, the node moves with v = (x - x*)/k and has
  * the acceleration (v - v*)/k: beside all other forces there acts -m/k^2 (x - x* - k v*), a field
- * of the line (node_field.h). Friction is measured from x*, which is the reference of the step. */
+ * of the line (node_field.h). Friction is measured from x*, which is the reference of the step, and
+ * on ground that turns from x* of where the ground has taken both places (contact_carry.h). */
 #ifndef CAPSTAN_SRC_CABLE_INERTIA_H
 #define CAPSTAN_SRC_CABLE_INERTIA_H
 
@@ -49,12 +50,14 @@ typedef struct CpsiInertia {
     double *velocity;       /* (n, 3) [m/s] v_{n+1} */
     double *before;         /* (n, 3) [m] x_{n-1}, of the next step x_n; changed where nodes bear */
     double *before_velocity; /* (n, 3) [m/s] v_{n-1}, likewise */
+    double *past;            /* (n, 3) [m] x_{n-1} as it was */
     bool *restarts;          /* (n) the next step of the node is an Euler step */
     bool *late;              /* (n) scratch: this step was to be one */
     bool *is_euler;          /* (n) ... and whether it is one */
     bool velocity_given[2];  /* of ends A and B, by the caller */
-    CpsiFormula formula;     /* of the nodes that take no Euler step */
-    double error;            /* [m] that the step makes by itself, by its estimate (pace.h) */
+    bool moved_in_span;  /* the line's shifts and turns are those in the span, less than a step */
+    CpsiFormula formula; /* of the nodes that take no Euler step */
+    double error;        /* [m] that the step makes by itself, by its estimate (pace.h) */
     CpsiDamping damping;
     double kinetic;        /* [J] */
     double position_bound; /* [m] */

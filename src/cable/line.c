@@ -14,6 +14,7 @@ static void layout_inertia(CpsiInertia *inertia, CpsiArena *arena, size_t n) {
     CPSI_PLACE(arena, inertia->velocity, 3 * n);
     CPSI_PLACE(arena, inertia->before, 3 * n);
     CPSI_PLACE(arena, inertia->before_velocity, 3 * n);
+    CPSI_PLACE(arena, inertia->past, 3 * n);
     CPSI_PLACE(arena, inertia->restarts, n);
     CPSI_PLACE(arena, inertia->late, n);
     CPSI_PLACE(arena, inertia->is_euler, n);

@@ -49,6 +49,7 @@
 #include "cable/standstill.h"
 #include "cable/strategy.h"
 #include "cable/tension_field.h"
+#include "cable/turning_flow.h"
 #include "cable/winch.h"
 #include "ipm/ipm.h"
 
@@ -399,20 +400,60 @@ static void end_swim(CpsiLine *line, double left) {
     cpsi_line_set_loads(line);
 }
 
+/* Solve the program that the flow has been seen for. */
+static bool solve_turned(CpsiLine *line, CpsiChainProgram *program,
+                         const CpsiStepOptions *options) {
+    const size_t contacts = (size_t)cpsi_line_all_contacts(line);
+    cpsi_line_set_loads(line);
+    memset(line->reaction, 0, contacts * sizeof *line->reaction);
+    if (line->has_local_axes) cpsi_contact_reset(line);
+    solve_with_fallbacks(line, program, options, CPSI_GUESS_NONE);
+    return cps_outcome_is_certified(line->report.outcome);
+}
+
+/* Newton's method for the places of the programs, from one of its starts. False: it finds none. */
+static bool turn_from(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                      int start, double *left) {
+    CpsiTurn turn = {.lack = INFINITY, .share = 1};
+    cpsi_line_begin_turn(line, start);
+    for (int round = 0; round < MOST_SWIMS; round++) {
+        if (!solve_turned(line, program, options)) return false;
+        if (has_followed(line, line->report.certificate.largest_force, left)) return true;
+        if (!cpsi_line_turn_on(line, &turn)) return false;
+    }
+    return false;
+}
+
+/* Where the places of the programs do not converge by themselves. If none of the starts leads to a
+ * solution, the line is left where the first program puts it. */
+static void turn_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options,
+                      double *left) {
+    const int starts = cpsi_line_has_short_element(line) ? CPSI_TURN_STARTS : 1;
+    for (int start = 0; start < starts; start++) {
+        if (turn_from(line, program, options, start, left)) return;
+        if (!cps_outcome_is_certified(line->report.outcome)) break;
+    }
+    cpsi_line_begin_turn(line, 0);
+    (void)solve_turned(line, program, options);
+    (void)has_followed(line, line->report.certificate.largest_force, left);
+}
+
 /* Go on from the solution of the first program. */
 static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     const size_t contacts = (size_t)cpsi_line_all_contacts(line);
     double left;
-    for (int round = 0;; round++) {
-        const bool certified = cps_outcome_is_certified(line->report.outcome);
-        if (has_followed(line, line->report.certificate.largest_force, &left) || !certified ||
-            round == MOST_SWIMS)
-            break;
+    bool followed, certified;
+    int round = 0;
+    for (;; round++) {
+        certified = cps_outcome_is_certified(line->report.outcome);
+        followed = has_followed(line, line->report.certificate.largest_force, &left);
+        if (followed || !certified || round == MOST_SWIMS) break;
         const CpsiGuess guess = approach(line, program, options, left);
         if (guess == CPSI_GUESS_NONE) memset(line->reaction, 0, contacts * sizeof *line->reaction);
         if (line->has_local_axes) cpsi_contact_reset(line);
         solve_with_fallbacks(line, program, options, guess);
     }
+    if (round > 0 && !(followed && certified)) turn_swim(line, program, options, &left);
     const CpsOutcome outcome = line->report.outcome;
     end_swim(line, left);
     cpsi_line_certify(line, options, &SWUM);

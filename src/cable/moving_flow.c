@@ -73,7 +73,7 @@ static inline void put_half(CpsiHalfElements *half, int l, const Element *elemen
     half->length[l] = element->half;
 }
 
-static CpsiWaterShare share_of(const CpsiFlow *flow) {
+CpsiWaterShare cpsi_water_share(const CpsiFlow *flow) {
     const CpsDrag *by = &flow->drag;
     const double pressed = 0.5 * flow->density * by->diameter,
                  displaced = 0.25 * CPSI_PI * flow->density * by->diameter * by->diameter;
@@ -87,7 +87,7 @@ static CpsiWaterShare share_of(const CpsiFlow *flow) {
 
 /* See what the water does to the line at the places x. */
 static void see_water(const CpsiLine *line, const double *x) {
-    const CpsiWaterShare share = share_of(line->field.flow);
+    const CpsiWaterShare share = cpsi_water_share(line->field.flow);
     CpsiNodesInWater nodes = {.velocity = {{0}}};
     Element before = {.half = 0};
     for (int first = 0; first < line->n; first += CPSI_LANES) {
@@ -145,6 +145,11 @@ static void write(CpsiLine *line, const double *y) {
     for (int j = 0; j < line->n; j++) write_node(line, y, j);
 }
 
+void cpsi_line_see_swim(CpsiLine *line, const double *y) {
+    see_water(line, y);
+    write(line, y);
+}
+
 /* The size of the forces of inertia and water on node j. */
 static double size_at(const CpsiLine *line, int j) {
     const CpsiInertia *inertia = &line->inertia;
@@ -164,8 +169,7 @@ void cpsi_line_begin_swim(CpsiLine *line) {
     for (int j = 0; j < line->n; j++)
         vec3_store(&place[3 * j], cpsi_line_expected_place(line, j, vec3_at(line->reference, j)));
     cpsi_line_put_held(line, place);
-    see_water(line, place);
-    write(line, place);
+    cpsi_line_see_swim(line, place);
     line->field.size = 0;
     for (int j = 0; j < line->n; j++) line->field.size += size_at(line, j);
     line->field.rounds.begun = false;

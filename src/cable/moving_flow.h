@@ -16,7 +16,11 @@ static inline bool cpsi_line_swims(const CpsiLine *line) {
  * where the line is expected; and for the next one, about where the last one has taken it and the
  * flow was seen, or to where these converge; `left` is what the last one lacked. */
 void cpsi_line_begin_swim(CpsiLine *line);
+/* ... about the places y (n, 3) that are given. */
+void cpsi_line_see_swim(CpsiLine *line, const double *y);
 void cpsi_line_approach_swim(CpsiLine *line, double left);
+/* What of the flow belongs to an element of the line. */
+CpsiWaterShare cpsi_water_share(const CpsiFlow *flow);
 /* [N] See the flow at the position: the sum over the nodes of its forces there less those of the
  * program, and the largest of them. */
 double cpsi_line_swim_change(const CpsiLine *line, double *largest);

@@ -6,6 +6,7 @@
 
 #include "cable/certificate.h"
 #include "cable/contact.h"
+#include "cable/contact_carry.h"
 #include "cable/end_set.h"
 #include "cable/field.h"
 #include "cable/friction_law.h"
@@ -67,11 +68,8 @@ void cpsi_line_classify(CpsiLine *line, const CpsiChainProgram *program) {
 
 Vec3 cpsi_line_end_slip(const CpsiLine *line, int end, int k) {
     const int j = cpsi_line_end_node(line, end);
-    const CpsiObstacle *obstacle = &line->obstacle[k];
-    const Vec3 from = vec3_at(line->reference, j), to = vec3_at(line->position, j);
-    return cpsi_obstacle_slip(obstacle,
-                              cpsi_obstacle_carry(obstacle, from, &line->shift[k], line->turn[k]),
-                              to);
+    return cpsi_obstacle_slip(&line->obstacle[k], cpsi_contact_carry(line, k, j, true),
+                              vec3_at(line->position, j));
 }
 
 /* Rotate v, in the plane with normal `from`, with the normal to that with normal `to`; the two

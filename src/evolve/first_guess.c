@@ -35,6 +35,7 @@ void cpsi_impose_plan(CpsiBalance *balance, int item) {
     const int i = balance->line[item];
     CpsiLine *line = &evolution->line[i];
     cpsi_workspace_attach(&evolution->workspace[0], line);
+    line->inertia.moved_in_span = false;
     for (int k = 0; k < evolution->obstacle_count; k++) {
         line->turn[k] = evolution->angle[k];
         line->shift[k] = evolution->shift[k];

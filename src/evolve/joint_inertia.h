@@ -16,6 +16,7 @@ typedef struct CpsiPointInertia {
     double velocity[3];        /* [m/s] now */
     double before[3];          /* [m] x_{n-1} of the next step's x_n, changed where it bears */
     double before_velocity[3]; /* [m/s] v_{n-1}, likewise */
+    double past[3];            /* [m] x_{n-1} of the step as it was */
     bool bore;                 /* it touched an obstacle when the step began */
     bool landed;
     bool crossed; /* it came to the surface of the water in the step, or left it */

@@ -38,7 +38,7 @@ static Vec3 carry_both(const CpsEvolution *evolution, const CpsiPoint *point, in
     const CpsiShift shift = evolution->shift[k], both = cpsi_shift_part(&shift, 1 - longer, 1);
     const Vec3 last = cpsi_obstacle_carry(on, vec3_load(point->before), &shift, angle),
                first =
-                   cpsi_obstacle_carry(on, vec3_load(point->inertia.before), &both, longer * angle);
+                   cpsi_obstacle_carry(on, vec3_load(point->inertia.past), &both, longer * angle);
     return vec3_axpy(evolution->formula.back, vec3_sub(last, first), last);
 }
 

@@ -237,6 +237,7 @@ static void plan_points(CpsEvolution *evolution, const CpsiEvolutionStage *stage
     cpsi_soft_point_areas(evolution);
     for (int i = 0; i < points->count; i++) {
         CpsiPoint *point = &points->point[i];
+        memcpy(point->inertia.past, point->before, sizeof point->before);
         memcpy(point->before, point->position, sizeof point->before);
         point->is_moving = portion->part > 0 && point->report.has_place;
     }

@@ -195,6 +195,7 @@ void cpsi_substeps_impose(CpsiLine *line, const CpsiMove *move, CpsiSubsteps *sc
         line->grasp_before[k] = grasp_at(move, k, from);
         line->grasp[k].imposed = grasp_at(move, k, to);
     }
+    line->inertia.moved_in_span = false;
     for (int k = 0; k < line->obstacle_count; k++) line->turn[k] = (to - from) * move->angle[k];
     shift_obstacles(line, move, scratch, from, to);
 }

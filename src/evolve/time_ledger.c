@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "cable/contact.h"
+#include "cable/contact_carry.h"
 #include "cable/damping.h"
 #include "cable/field.h"
 #include "cable/soft.h"
@@ -109,15 +110,10 @@ static void add_impact(Sums *sums, int j, int c, Vec3 ground) {
     sums->scheme -= lost;
 }
 
-/* The way of the ground under contact c in the whole step: the reference was carried along for the
- * span of the scheme. */
-static Vec3 ground_way(const CpsiLine *line, int c, Vec3 x, double length) {
-    if (!line->has_local_axes) return vec3(0, 0, 0);
-    const int k = line->obstacle_index[c], e = cpsi_line_element(line, c);
-    if (k < 0 || (line->turn[k] == 0 && !cpsi_line_is_shifted(line, k))) return vec3(0, 0, 0);
-    const double by = length / line->inertia.span[e < 0 ? cpsi_line_node(line, c) : e];
-    const Vec3 before = cpsi_obstacle_turn(&line->obstacle[k], x, -line->turn[k]);
-    return vec3_scale(by, vec3_add(vec3_sub(x, before), cpsi_shift_to(&line->shift[k], before)));
+/* The way of the ground under contact c, at x, in the whole step. */
+static Vec3 ground_way(const CpsiLine *line, int c, Vec3 x) {
+    const int k = line->has_local_axes ? line->obstacle_index[c] : CPS_NO_OBSTACLE;
+    return k < 0 ? vec3(0, 0, 0) : cpsi_contact_ground_way(line, k, x);
 }
 
 static void add_contacts(Sums *sums, const unsigned char *state) {
@@ -131,7 +127,7 @@ static void add_contacts(Sums *sums, const unsigned char *state) {
             continue;
         const Vec3 x = cpsi_line_place(line, line->position, c),
                    way = vec3_sub(x, cpsi_line_place(line, line->inertia.start, c));
-        const Vec3 ground = ground_way(line, c, x, sums->length);
+        const Vec3 ground = ground_way(line, c, x);
         add_forces(sums, friction, reaction, way, ground);
         if (cpsi_soft_spring(line, c).stiffness > 0) {
             const double damped = cpsi_soft_damped(line, c, sums->length);
@@ -154,7 +150,7 @@ static void add_ends(Sums *sums, CpsLineReport *report) {
         if (!cpsi_line_is_held(line, j) || line->state[j] == CPS_NODE_STATE_FREE) continue;
         add_forces(sums, vec3_load(report->end[end].friction_force),
                    vec3_scale(line->reaction[j], vec3_at(line->normal, j)), way,
-                   ground_way(line, j, vec3_at(line->position, j), sums->length));
+                   ground_way(line, j, vec3_at(line->position, j)));
     }
     for (int k = 0; k < line->grasp_count; k++)
         sums->ledger.ends +=
@@ -165,7 +161,7 @@ double cpsi_node_loss(const CpsiLine *line, int j, double length) {
     double loss = inertia_loss(line, j) - cpsi_soft_growth(line, j, length);
     for (int c = j; c < cpsi_line_contacts(line); c += line->n) {
         if (!(line->reaction[c] > 0)) continue;
-        const Vec3 ground = ground_way(line, c, vec3_at(line->position, j), length);
+        const Vec3 ground = ground_way(line, c, vec3_at(line->position, j));
         loss -= line->reaction[c] *
                 vec3_dot(vec3_at(line->normal, c), vec3_sub(way_of(line, j), ground));
         loss -= fmax(0, cpsi_soft_damped(line, c, length));

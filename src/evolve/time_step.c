@@ -93,6 +93,7 @@ static double attempt(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
     const double share =
         all || !ground_moves(line, move) ? 1 : step->formula.span / step->formula.length;
     cpsi_substeps_impose(line, move, scratch, 1 - share, 1);
+    line->inertia.moved_in_span = share < 1;
     memcpy(line->weight_before, move->weight_from, sizeof line->weight_before);
     cpsi_line_step(line, program, options);
     for (int j = 0; j < line->n; j++)
@@ -308,6 +309,7 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     if (cpsi_line_has_damping(line) && !inertia->is_moving) cpsi_line_begin_damping(line);
     inertia->is_moving = true;
     memcpy(inertia->velocity_given, move->has_velocity, sizeof inertia->velocity_given);
+    memcpy(inertia->past, inertia->start, places);
     memcpy(inertia->start, line->position, places);
     memcpy(inertia->start_velocity, inertia->velocity, places);
     cpsi_substeps_save(line, scratch);
@@ -327,6 +329,16 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
         !falls_short(line, options, move, scratch)) { /* what the attempt came to */
         cpsi_substeps_restore(line, scratch);
         share = attempt(line, program, options, move, scratch, step);
+    }
+    const bool stalled = !cps_outcome_is_certified(line->report.outcome) &&
+                         !cps_outcome_is_final(line->report.outcome);
+    if (stalled && step->scheme != CPS_TIME_SCHEME_EULER && !step->restarts && !step->once) {
+        /* x* of (9b) may lie where contacts are not those of the step: by (9c) it is x_n */
+        cpsi_substeps_restore(line, scratch);
+        line->last_change.known = goes_on;
+        for (int j = 0; j < line->n; j++) inertia->restarts[j] = true;
+        share = attempt(line, program, options, move, scratch, step);
+        iterations += line->report.iteration_count;
     }
     /* the way of what went farther round an obstacle is not known, nor on which side of it a line
      * is that it goes past: the steps are too long */

@@ -453,6 +453,50 @@ static void clumps_on_a_line_over_a_drum(void **state) {
     }
 }
 
+/* Clumps on the top of a drum that turns go round with it, and so do they where it is taken along
+ * on a table that turns, by either scheme and in steps of any length. */
+static void a_drum_takes_clumps_round(void **state) {
+    (void)state;
+    const double r = 0.7, own = 0.5, time = 1;
+    for (int scheme = 0; scheme < 2; scheme++)
+        for (int k = 0; k < 4; k++) {
+            const int count = k % 2 ? 40 : 8;
+            const double about = k < 2 ? 0 : 0.8; /* of the table, about x = 1 */
+            Rig rig;
+            drum(&rig, (CpsTimeScheme)scheme, 0.9, r);
+            free_point(&rig, 0, 5, 0, -0.2, r);
+            free_point(&rig, 1, 3, 0, 0.3, r);
+            tie_straight(&rig, 0, 0, 1, 1, 100, 0);
+            for (int i = 0; i < 2; i++)
+                place(rig.point[i].velocity, own / time * r - about * rig.point[i].position[1],
+                      -about, 0);
+            CpsStage *stage = add_stage(&rig, time, count);
+            turn(&rig, stage, own);
+            if (about > 0) {
+                shift(&rig, stage, 0, 0, 0);
+                place(rig.shift[0].turn, 0, 0, about);
+                place(rig.shift[0].about, 1, 0, 0);
+            }
+            CpsEvolution *evolution = open(&rig);
+            Sums sums = {0};
+            steps(evolution, count, &sums);
+            double most = 0;
+            for (int i = 0; i < 2; i++) {
+                const double x = r * sin(own) - 1, y = rig.point[i].position[1],
+                             to[3] = {1 + cos(about) * x - sin(about) * y,
+                                      sin(about) * x + cos(about) * y, r * cos(own)};
+                for (int a = 0; a < 3; a++) most = fmax(most, fabs(at(evolution, i, a) - to[a]));
+            }
+            char name[64];
+            snprintf(name, sizeof name, "clumps on a drum%s, %s, %d steps",
+                     about > 0 ? " taken along" : "", scheme ? "Euler" : "BDF2", count);
+            figure(name, "off their places [m]", 0, most);
+            CHECK_LESS(most, 1e-12);
+            CHECK_LESS(sums.imbalance, 1e-10 * sums.turnover);
+            cps_evolution_destroy(evolution);
+        }
+}
+
 /* A body on two lines over a drum, in balance without friction; both lines end at held points. */
 static void hang(Rig *rig, double friction, double mass, double line_mass) {
     const double r = 0.1, half = mass * G / 2;
@@ -657,6 +701,7 @@ int main(void) {
         cmocka_unit_test(a_floor_throws_clumps_up),
         cmocka_unit_test(a_held_point_rises_with_the_floor),
         cmocka_unit_test(clumps_on_a_line_over_a_drum),
+        cmocka_unit_test(a_drum_takes_clumps_round),
         cmocka_unit_test(a_body_on_lines_over_a_drum),
         cmocka_unit_test(a_frame_of_constant_velocity),
         cmocka_unit_test(no_step_is_too_long),

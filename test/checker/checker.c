@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "carried.h"
 #include "caught.h"
 #include "elongation.h"
 #include "ends.h"
@@ -591,8 +592,7 @@ static void check_work(const Record *r, const Record *before, const Source *sour
          ENERGY_FLOOR * m.scale + 1e-13 * m.largest_force * m.reach);
 }
 
-/* The weight before a step in one part is that after the one before, by the load of any node that
- * no end force acts on. */
+/* The weight before a step in one part is that after the one before, by the load of node 1. */
 static void check_weight(const Record *r, const Record *before, Findings *findings) {
     if (!r->has_weight_before || r->substeps != 1 || before->nodes < 3 ||
         before->outcome > OUTCOME_TAUT)
@@ -724,25 +724,25 @@ static int check_line(const Source *source, const char *line, FILE *log, Checker
     for (size_t step = 0; step < source->steps && !bad; step++) {
         bad = record_read(source, line, step, &record, log);
         if (bad) break;
+        const Record *before = step > 0 ? &previous : NULL, *first = step > 1 ? &older : NULL;
         record.winds = step > 0 && winches_wind(&record, &previous);
-        settling_begin(&record, step > 0 ? &previous : NULL);
-        check_record(source, &record, step > 0 ? &previous : NULL, line, step, log, report);
+        settling_begin(&record, before);
+        carried_begin(&record, before, first);
+        check_record(source, &record, before, line, step, log, report);
         Findings findings = {log, line, step, 0};
         if (step > 0 && record.substeps == 1 && !in_time(&record) &&
             !winches_continue(&record, &previous))
             find(&findings, "the reference is not the position of the step before");
-        const char *fault = elongation_rest_fault(&record, step > 0 ? &previous : NULL);
+        const char *fault = elongation_rest_fault(&record, before);
         if (fault) find(&findings, "%s", fault);
-        inertia_check(source, &record, step > 0 ? &previous : NULL, step > 1 ? &older : NULL,
-                      find_number, &findings);
-        settling_check(source, &record, step > 0 ? &previous : NULL, find_number, &findings);
+        inertia_check(source, &record, before, first, find_number, &findings);
+        settling_check(source, &record, before, find_number, &findings);
         if (step > 0) events_add(&record, &previous, &report->events);
         if (step > 0 && !in_time(&record)) check_work(&record, &previous, source, step, &findings);
         if (record.outcome <= OUTCOME_TAUT) sets_check(&record, find_number, &findings);
         if (step > 0) check_weight(&record, &previous, &findings);
-        if (record.drums) check_winches(&record, step ? &previous : NULL, source, step, &findings);
-        // with frozen friction the reactions before a first step, or before the last part of one,
-        // are not known
+        if (record.drums) check_winches(&record, before, source, step, &findings);
+        // with frozen friction reactions before a first step, or its last part, are not known
         bool statics = step == 0 && source->has_static && without_friction(&record);
         if (!statics && (source->consistent || (step > 0 && record.substeps == 1)))
             check_bounds(source, &record, source->consistent ? &record : &previous, &findings);

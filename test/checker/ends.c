@@ -15,6 +15,7 @@
 
 #include <math.h>
 
+#include "carried.h"
 #include "failure.h"
 #include "inertia.h"
 #include "loads.h"
@@ -91,7 +92,7 @@ static End on_obstacle(const Source *source, const Record *r, int e, size_t k, b
     widen(r->position[j], x);
     widen(r->reference[j], reference);
     surface_normal(surface, x, n);
-    surface_carry(surface, reference, r->share, r->turn[k], carried);
+    carried_point(r, surface, r->turn[k], true, j, 0, carried);
     surface_slip(surface, carried, x, slip);
     surface_own(surface, x, reference, r->share, own);
     end.reaction = fmaxl(0, dot(n, end.force));

@@ -198,6 +198,14 @@ static bool is_at_point(const Record *r, size_t j) {
     return (j == 0 && r->end_point[0] >= 0) || (j == r->elements && r->end_point[1] >= 0);
 }
 
+/* The share of the step in which the scheme has obstacles move: all of it where none does. */
+static double moving_share(const Source *source, const Record *r) {
+    for (size_t k = 0; k < source->surfaces; k++)
+        if (r->turn[k] != 0 || surface_moves(&source->surface[k]))
+            return r->span[0] / r->step_length;
+    return 1;
+}
+
 static void check_scheme(const Source *source, const Record *r, const Record *before,
                          const Record *older, double reach, InertiaFind *find, void *user) {
     const double h = r->step_length;
@@ -214,6 +222,9 @@ static void check_scheme(const Source *source, const Record *r, const Record *be
     for (int e = 0; e < 2; e++)
         if (r->velocity_given[e] && r->end_kind[e] != END_HELD && r->end_point[e] < 0)
             find(user, "given velocity of an end that is not held", e, 0);
+    const double share = moving_share(source, r);
+    if (!(fabs(r->share - share) <= FORMULA_TIMES))
+        find(user, "share of the step in which the ground moves", r->share, share);
     if (!(span <= FORMULA_TIMES)) find(user, "span of the scheme, off", span, 0);
     if (!(off <= PLACES * reach)) find(user, "reference off that of the scheme", off, 0);
 }

@@ -16,6 +16,7 @@
  * smaller. */
 #include "measure.h"
 
+#include "carried.h"
 #include "elongation.h"
 #include "grasps.h"
 #include "loads.h"
@@ -154,6 +155,11 @@ static bool has_way(const Surface *surface, const Real *a, const Real *b) {
     return surface_angle(surface, a, b) <= 2 * QUARTER - HALF_ROUND;
 }
 
+/* [rad] By which the obstacle of contact c of node j turns about its own axis; it has one. */
+static Real turn_of(const Where *where, const Record *r, size_t j, size_t c) {
+    return (Real)r->turn[seen_surface(where, r, j, c) - where->source->surface];
+}
+
 /* What contact c of node j sees of its obstacle; *seen is that obstacle as it sees it. */
 static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c, Surface *seen) {
     const Surface *on = seen_surface(where, r, j, c);
@@ -169,9 +175,9 @@ static Seat seat_of(const Where *where, const Record *r, size_t j, size_t c, Sur
     subtract(r->position[j], r->reference[j], u);
     surface_normal(seat.surface, place, seat.normal);
     surface_normal(seat.surface, where->frozen ? reference : place, seat.plane);
-    const Real turn = (Real)r->turn[on - where->source->surface];
+    const Real turn = turn_of(where, r, j, c);
     const bool moves = turn != 0 || surface_moves(seat.surface);
-    surface_carry(seat.surface, reference, r->share, turn, carried);
+    carried_point(r, seat.surface, turn, true, j, 0, carried);
     const Surface at = soft_level(seat.surface, x);
     if (moves) surface_own(&at, x, reference, r->share, seat.own);
     if (where->reached && !where->frozen) {
@@ -248,12 +254,10 @@ static void measure_seat(const Where *where, const Record *r, size_t j, size_t c
             if (!held(r, j)) raise_to(&m->sunk, depth);
         }
     if (held(r, j) || !seat->surface) return;
-    Triple from;
-    widen(r->reference[j], from);
     // frozen friction acts on what has left the surface as well, in the plane of the reference
     const bool acts = r->friction_bound[c] > 0 && !(where->frozen && r->reaction[c] == 0);
     Triple shifted;
-    surface_shift(seat->surface, from, r->share, shifted);
+    carried_point(r, seat->surface, turn_of(where, r, j, c), false, j, 0, shifted);
     if (acts) raise_to(&m->gone_quarters, surface_angle(seat->surface, shifted, x) / QUARTER);
     if (r->contacts > 1 && !seen_in_place(where, r, j, c, margin)) m->misplaced++;
     // a second obstacle that is round is looked for up to half its radius away
@@ -405,7 +409,7 @@ static Seat element_seat(const Where *where, const Record *r, const Surface *on,
     for (int k = 0; k < 3; k++) u[k] = x[k] - reference[k];
     surface_normal(on, x, seat.normal);
     measure_element_plane(r, on, i, where->frozen, t, x, seat.plane, along);
-    surface_carry(on, reference, r->share, turn, carried);
+    carried_point(r, on, turn, true, i, t, carried);
     // the point goes round at its own depth: what friction works on is shorter than the path of its
     // foot
     const Surface within = surface_within(on, depth);
@@ -483,7 +487,7 @@ static void measure_element_contact(const Where *where, const Record *r, size_t 
              size(n) / (1 + (on->kind == SURFACE_PLANE ? 0 : where->reach / on->radius)));
     raise_to(&m->slip_error, size(slip));
     Triple shifted;
-    surface_shift(on, reference, r->share, shifted);
+    carried_point(r, on, (Real)r->turn[on_file], false, i, t, shifted);
     if (r->friction_bound[c] > 0 && !left)
         raise_to(&m->gone_quarters, surface_angle(on, shifted, x) / QUARTER);
     if (isfinite(r->gap[c])) raise_to(&m->gap_error, fabsl(gap - seat.gap));

@@ -294,8 +294,9 @@ static double share_of(const Points *p) {
 
 /* Where ground has taken what friction is measured from. In the matter of the ground a place is
  * where that has come to at the end of the step, and the slip is (y - y*) there, by the scheme: of
- * the place when the step began, y_n, and by a parabola of the one before as well, which follows
- * from x* = x_n + b (x_n - x_{n-1}). The ground moves steadily in both steps. */
+ * the place when the step began, y_n, and by a parabola of the one before as well. The ground moves
+ * steadily in both steps. Where it goes straight this is x* = x_n + b (x_n - x_{n-1}) carried
+ * along, from which x_{n-1} follows that may have forgotten its motion along the normal. */
 static void carry_reference(const Points *p, const Surface *on, Real out[3]) {
     const PointMotion *motion = &p->motion[p->point];
     const Junction *before = &p->before[p->point];
@@ -303,12 +304,17 @@ static void carry_reference(const Points *p, const Surface *on, Real out[3]) {
                  turn = p->line[0].turn[on - p->source->surface];
     const double h_before = p->step > 0 ? step_length_of(p->source, p->step - 1) : 0;
     const Real back = motion->span > 0 ? formula_of(motion->span, h, h_before).back : 0;
+    const bool turns = turn != 0 || on->spin[0] != 0 || on->spin[1] != 0 || on->spin[2] != 0;
+    /* the first step of the file began at its reference */
+    const double *past =
+        p->step > 1 ? p->older[p->point].position : p->motion_before[p->point].reference;
     Real last[3], first[3], y[2][3];
     widen(before->position, last);
     surface_carry(on, last, 1, turn, y[0]);
     for (int a = 0; a < 3; a++) out[a] = y[0][a];
     if (!(back > 0)) return;
-    for (int a = 0; a < 3; a++) first[a] = last[a] - (motion->reference[a] - last[a]) / back;
+    for (int a = 0; a < 3; a++)
+        first[a] = turns ? past[a] : last[a] - (motion->reference[a] - last[a]) / back;
     surface_carry(on, first, 1 + (Real)h_before / h, turn, y[1]);
     for (int a = 0; a < 3; a++) out[a] += back * (y[0][a] - y[1][a]);
 }

@@ -116,6 +116,10 @@ typedef struct Record {
     double *mass, *span, time, step_length, time_entry[TIME_ENTRIES];
     bool velocity_given[2]; /* of the ends, by the caller of the step */
     Vector *velocity, *rest_velocity;
+    /* where the nodes were as it began, and as the step before began; NULL: not both in time
+     * (carried.h), and [s] the length of that */
+    const Vector *start, *past;
+    double length_before;
     Vector *motion;                          /* of a line that slides without end, else 0 */
     Vector *normal, *friction, *slip;        /* (contacts, nodes) */
     double *gap, *friction_bound, *reaction; /* the same */

@@ -25,7 +25,7 @@ static const char SCENE[] =
     "  - {name: carry, duration: 0.2, steps: 10, drum.turn: 40, table.obstacle: {move: [0.2, 0.1, "
     "0.05], turn: 10, axis: [0, 0, 1], about: [0, 1, 0]}}\n"
     "  - {name: stop, duration: 0.1, steps: 5}\n";
-enum { STEPS = 15, LINES = 2, POINTS = 3, NEAR = 0, FAR = 1, RIDER = 2 };
+enum { STEPS = 15, LINES = 2, POINTS = 3, NEAR = 0, FAR = 1, RIDER = 2, A_NODES = 5 };
 
 #define POINT(step, point)    ((step)*POINTS + (point))
 #define PLACE(step, point, a) (3 * POINT(step, point) + (a))
@@ -45,6 +45,9 @@ static const FalseNumber FALSE[] = {
     {"dissipated_of_point", POINT(5, RIDER), 0, "rider: dissipated energy against the work"},
     {"ledger_scheme_of_point", POINT(5, NEAR), 1, "near: ledger, work of lines and load"},
     {"ledger_impact_of_point", POINT(5, FAR), 1, "far: ledger, work of lines and load"},
+    {"a_slip", 3 * (5 * A_NODES + 2), 0, "line a: slip against the path from the reference"},
+    {"a_friction_force", 3 * (5 * A_NODES + 2), 0, "line a: "},
+    {"a_share", 5, 1, "line a: share of the step in which the ground moves"},
     {"obstacle_shift", 3 * (2 * 5), 0.01, "obstacle_place is not where the shifts lead"},
     {"obstacle_turn", 2 * 5 + 1, 0.01, NULL},
 };

@@ -13,7 +13,8 @@
  * In time either the rope or the mooring has inertia, and three of four calls have a duration: what
  * is taken back, saved and gone again is also velocities and the past that the next step needs.
  * Half of what is led to a place there has a velocity given, which may be any: another one than the
- * places have. */
+ * places have. From the middle of a history on calls lead something with one until the history has
+ * two. */
 #define _GNU_SOURCE
 #include <math.h>
 #include <stdio.h>
@@ -28,7 +29,16 @@
 #include "same_line.h"
 #include "splitmix.h"
 
-enum { CALLS = 14, LINES = 5, POINTS = 6, OBSTACLES = 2, ROPE_NODES = 33, ROPE = 0, KNOT = 2 };
+enum {
+    CALLS = 14,
+    GIVEN = 2,
+    LINES = 5,
+    POINTS = 6,
+    OBSTACLES = 2,
+    ROPE_NODES = 33,
+    ROPE = 0,
+    KNOT = 2
+};
 enum { BED, ROUND };
 
 /* ---- memory ---- */
@@ -320,23 +330,24 @@ static bool is_there(const Live *live, int kind) {
     return live->moving == STATICS || is_obstacle || is_joined == (live->moving == MOORING_IN_TIME);
 }
 
-/* Velocities of what is held after a step in time. */
-static bool give(double *v, int count) {
-    if (splitmix(&speeds, 0, 1) < 0.5) return false;
+/* Velocities of what is held after a step in time: of all of it, or of half. */
+static bool give(double *v, int count, bool all) {
+    const bool gives = splitmix(&speeds, 0, 1) >= 0.5;
+    if (!gives && !all) return false;
     for (int a = 0; a < count; a++) v[a] = splitmix(&speeds, -1, 1);
     return true;
 }
 
-static void give_velocities(Move *move) {
+static void give_velocities(Move *move, bool all) {
     if (!(move->stage.duration > 0)) return;
     for (int i = 0; i < move->stage.change_count; i++)
         if (move->end[i].to.kind == CPS_END_KIND_HELD)
-            move->end[i].has_velocity = give(move->end[i].velocity, 3);
+            move->end[i].has_velocity = give(move->end[i].velocity, 3, all);
     for (int i = 0; i < move->stage.point_change_count; i++)
         if (move->point[i].kind == CPS_POINT_KIND_HELD)
-            move->point[i].has_velocity = give(move->point[i].velocity, 3);
+            move->point[i].has_velocity = give(move->point[i].velocity, 3, all);
     if (move->stage.body_change_count > 0 && move->body.kind == CPS_BODY_KIND_HELD)
-        move->body.has_velocity = give(move->body.velocity, CPS_BODY_DIRECTIONS);
+        move->body.has_velocity = give(move->body.velocity, CPS_BODY_DIRECTIONS, all);
 }
 
 /* How many changes of a move have a velocity. */
@@ -347,12 +358,32 @@ static int count_velocities(const Move *move) {
     return count;
 }
 
-static Move draw(const CpsEvolution *now, const Live *live, bool far) {
+/* Lead an end of the rope, or a held point of the mooring, to a place near by. */
+static void lead(const CpsEvolution *now, const Live *live, Move *move) {
+    if (live->moving == ROPE_IN_TIME) {
+        const CpsLineReport report = cps_evolution_line_report(now, ROPE);
+        CpsChange *change = &move->end[move->stage.change_count++];
+        *change = (CpsChange){.line = ROPE, .end = chance(0.5) ? CPS_END_A : CPS_END_B};
+        change->to.kind = CPS_END_KIND_HELD;
+        near(report.end[change->end].position, 0.1, change->to.value);
+        change->to.value[2] += 0.1;
+    } else {
+        CpsPointChange *change = &move->point[move->stage.point_change_count++];
+        *change = (CpsPointChange){.point = chance(0.5) ? 0 : 1};
+        near(cps_evolution_point_report(now, change->point).position, 0.1, change->value);
+        change->value[2] = fabs(change->value[2]) + 0.1;
+    }
+    move->has[live->moving == ROPE_IN_TIME ? 0 : 1] = true;
+}
+
+static Move draw(const CpsEvolution *now, const Live *live, bool far, bool leads) {
     Move move = {.stage = cps_stage_default()};
     move.stage.name = "call";
     const int count = far ? 0 : 1 + (int)uniform(0, 3);
     if (far) change_end(now, live, &move, true);
-    if (live->moving != STATICS && chance(0.75)) move.stage.duration = uniform(0.01, 0.2);
+    if (live->moving != STATICS && (leads || chance(0.75)))
+        move.stage.duration = uniform(0.01, 0.2);
+    if (leads) lead(now, live, &move);
     for (int i = 0; i < count; i++) {
         const int kind = (int)uniform(0, 6);
         if (move.has[kind] || !is_there(live, kind)) continue;
@@ -373,7 +404,7 @@ static Move draw(const CpsEvolution *now, const Live *live, bool far) {
         move.stage.gravity[0] = uniform(-1, 1);
         move.stage.gravity[2] = -uniform(8, 11);
     }
-    give_velocities(&move);
+    give_velocities(&move, leads);
     return move;
 }
 
@@ -412,9 +443,9 @@ static bool is_open(const CpsEvolution *evolution) {
 }
 
 /* One call, and what becomes of it: true, and *move, where it is kept. */
-static bool call(CpsEvolution *live_one, const Live *live, bool *is_first, Move *move,
+static bool call(CpsEvolution *live_one, const Live *live, bool leads, bool *is_first, Move *move,
                  Tally *tally) {
-    *move = draw(live_one, live, chance(0.1) && is_there(live, 0));
+    *move = draw(live_one, live, chance(0.1) && is_there(live, 0) && !leads, leads);
     if (chance(0.05)) move->stage.shift_count = -1;
     size_t size;
     unsigned char *before = saved_state(live_one, &size);
@@ -529,7 +560,7 @@ static void try_seed(uint64_t seed, bool in_time, const char *folder, Tally *tal
     static Live live;
     static Move kept[CALLS];
     static CpsStage stage[CALLS];
-    const int wrong = tally->wrong;
+    const int wrong = tally->wrong, given = tally->given;
     int count = 0;
     make(&live, seed);
     if (in_time) set_in_motion(&live);
@@ -537,7 +568,8 @@ static void try_seed(uint64_t seed, bool in_time, const char *folder, Tally *tal
     CpsEvolution *evolution = begin(&live.scene);
     bool is_first = true;
     for (int i = 0; i < CALLS; i++) {
-        const bool keeps = call(evolution, &live, &is_first, &kept[count], tally);
+        const bool leads = in_time && i >= CALLS / 2 && tally->given - given < GIVEN;
+        const bool keeps = call(evolution, &live, leads, &is_first, &kept[count], tally);
         count += keeps;
         if (keeps && chance(0.2)) {
             evolution = handed_over(evolution, &live, tally);
