@@ -108,14 +108,27 @@ static void print_solution(FILE *solutions, const char *step, const CpsLineRepor
 }
 
 /* A free point whose forces do not balance at any of the places tried. */
-static void print_unbalanced(FILE *out, const char *name, const CpsPointReport *point) {
+static void print_unbalanced(FILE *out, const char *name, const CpsPointReport *point,
+                             const char *advice) {
     const double *f = point->residual;
     fputs("point ", out);
     cli_print_text(out, name, 80, false);
     fprintf(out,
             ": no place found where the forces on it balance (%.4g N are left after "
-            "%d trials)\n",
-            sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]), point->trial_count);
+            "%d trials)%s\n",
+            sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]), point->trial_count, advice);
+}
+
+/* What to do about such a point in a step in time: has it an inertia of its own, or that of a line
+ * that ends there? */
+static const char *advice_for(const CpsScene *scene, const CpsEvolution *evolution, int point) {
+    if (!(cps_evolution_pace(evolution).length > 0) || scene->point[point].inertia > 0) return "";
+    for (int i = 0; i < scene->line_count; ++i)
+        for (int e = 0; e < 2; ++e)
+            if (scene->line[i].end[e].kind == CPS_END_KIND_POINT &&
+                scene->line[i].end_point[e] == point && !scene->line[i].quasi_static)
+                return "";
+    return "; it has no 'inertia' to move with: give it one";
 }
 
 /* An anchor that has given way, or is beyond its limits. */
@@ -236,7 +249,7 @@ static void print_rows(FILE *table, FILE *solutions, const CpsScene *scene,
         if (point.has_place) print_anchor(table, &scene->point[i], &point);
         if (!is_unbalanced(scene, evolution, i)) continue;
         fprintf(table, "%*s", NAME_WIDTH + 1, "");
-        print_unbalanced(table, scene->point[i].name, &point);
+        print_unbalanced(table, scene->point[i].name, &point, "");
     }
     for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {
         const CpsBodyReport body = cps_evolution_body_report(evolution, i);
@@ -364,7 +377,7 @@ static void report_outcomes(const CpsScene *scene, const CpsEvolution *evolution
         fputs("capstan: step ", stderr);
         cli_print_text(stderr, step.name, 80, false);
         fputs(", ", stderr);
-        print_unbalanced(stderr, scene->point[i].name, &point);
+        print_unbalanced(stderr, scene->point[i].name, &point, advice_for(scene, evolution, i));
     }
     report_turning(scene, evolution, step.name);
     for (int i = 0; i < cps_evolution_body_count(evolution); ++i) {

@@ -98,8 +98,8 @@ typedef struct CpsBody {
     double quadratic_damping[36];
     double velocity[CPS_BODY_DIRECTIONS]; /* [m/s, rad/s] as the history begins, of a free body, in
                                              the axes of the scene */
-    /* In steps in time, of at most CPS_MAX_WAVES rows, those of one direction with periods that
-     * increase; default 0 and NULL: waves do nothing to it. Between two rows amplitude exp(i lead)
+    /* In steps in time, of at most CPS_MAX_WAVES rows in any order, no two for one direction and
+     * period; default 0 and NULL: waves do nothing to it. Between two rows amplitude exp(i lead)
      * is linear in the frequency; each of the scene's waves is at a row or between two of its
      * direction. Drift and the second order are not in it */
     int excitation_count;

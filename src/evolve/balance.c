@@ -466,9 +466,13 @@ static void find_motion(CpsiBalance *balance, int group) {
         }
         if (i > 0 || is_over(balance) || !restart_rough(balance, group)) break;
     }
-    cpsi_report_found(balance);
-    if (balance->line_count == 0 && !cpsi_is_answer(balance)) /* no line says so */
+    if (balance->line_count == 0 && !cpsi_is_answer(balance)) {
+        /* no line says so; nothing holds it, and where the trials have led it says nothing */
         balance->evolution->lone = cps_outcome_worse(balance->evolution->lone, CPS_OUTCOME_STALLED);
+        cpsi_begin_again(balance);
+        cpsi_try_places(balance);
+    }
+    cpsi_report_found(balance);
 }
 
 /* Take the answer as one program; of bodies also from poses within reach of their lines, since the

@@ -67,12 +67,12 @@ static CpsStatus check_row(const CpsBody *body, int index, CpsError *err) {
                             body->name, index + 1);
     for (int k = 0; k < index; k++)
         if (is_same_direction(body->excitation[k].direction, row->direction) &&
-            !(row->period > body->excitation[k].period * (1 + SAME_PERIOD)))
+            fabs(row->period - body->excitation[k].period) <= row->period * SAME_PERIOD)
             return CPSI_FAIL_AT(place, err, CPS_ERR_ARGUMENT,
-                                "body '%s': excitation: row %d has the period %g s, after %g s for "
-                                "the same direction: give rows of one direction with periods that "
-                                "increase",
-                                body->name, index + 1, row->period, body->excitation[k].period);
+                                "body '%s': excitation: row %d has the period %g s and the "
+                                "direction %g degrees, as row %d: leave one of them out",
+                                body->name, index + 1, row->period, row->direction / CPSI_DEGREE,
+                                k + 1);
     return CPS_OK;
 }
 

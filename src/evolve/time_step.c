@@ -330,6 +330,16 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
         cpsi_substeps_restore(line, scratch);
         share = attempt(line, program, options, move, scratch, step);
     }
+    const bool stalled = !cps_outcome_is_certified(line->report.outcome) &&
+                         !cps_outcome_is_final(line->report.outcome);
+    if (stalled && step->scheme != CPS_TIME_SCHEME_EULER && !step->restarts && !step->once) {
+        /* x* of (9b) may lie where contacts are not those of the step: by (9c) it is x_n */
+        cpsi_substeps_restore(line, scratch);
+        line->last_change.known = goes_on;
+        for (int j = 0; j < line->n; j++) inertia->restarts[j] = true;
+        share = attempt(line, program, options, move, scratch, step);
+        iterations += line->report.iteration_count;
+    }
     /* the way of what went farther round an obstacle is not known, nor on which side of it a line
      * is that it goes past: the steps are too long */
     if (cps_outcome_is_certified(line->report.outcome) &&

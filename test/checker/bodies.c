@@ -17,6 +17,7 @@
 #include "joint_motion.h"
 #include "points.h"
 
+#include <float.h>
 #include <math.h>
 #include <netcdf.h>
 #include <stdarg.h>
@@ -28,7 +29,8 @@ enum { MOST_BODIES = 1000, MOST_NAME = 256 };
 /* Sums of a few numbers of the file per sum of their sizes; a balance, in tolerances of the step;
  * places per length; unit quaternions. */
 static const double SUMS = 1e-12, BALANCED = 100, COPIED = 1e-12, UNIT = 1e-12,
-                    TURNED = 1e-9; /* [rad] rounding of quaternions that are read */
+                    TURNED = 1e-9, /* [rad] rounding of quaternions that are read */
+    ROUNDINGS = 16;                /* roundings of places in an acceleration */
 
 /* ---- reading ---- */
 
@@ -311,8 +313,8 @@ static void add_force(Real load[SIX], const Real force[3], const Real arm[3]) {
 /* [rad] Steps of differences: those of the fourth order leave the fourth power. */
 static const Real TURN = 1e-4L;
 
-void body_load(const BodyData *data, const Vector position, const double rotation[FOUR],
-               const double gravity[3], Real load[SIX]) {
+void body_load_beside(const BodyData *data, const Vector position, const double rotation[FOUR],
+                      const double side[FOUR], const double gravity[3], Real load[SIX]) {
     Real m[3][3], arm[3], force[3];
     memset(load, 0, SIX * sizeof *load);
     body_matrix(rotation, m);
@@ -322,11 +324,13 @@ void body_load(const BodyData *data, const Vector position, const double rotatio
     for (int i = 0; i < 3; i++) force[i] = -(Real)data->buoyancy * gravity[i];
     apply(m, data->centre_of_buoyancy, arm);
     add_force(load, force, arm);
-    Real q[SIX];
+    Real q[SIX], beside[3];
     for (int i = 0; i < 3; i++) q[i] = (Real)position[i] - data->start_position[i];
-    turned_by(data->start_rotation, rotation, 0, 0, NULL, &q[3]);
+    turned_by(data->start_rotation, side, 0, 0, NULL, beside);
     /* half a turn from the start the vector jumps; derivatives are those on the side of the pose */
-    const Real *near = q[3] * q[3] + q[4] * q[4] + q[5] * q[5] > 1 ? &q[3] : NULL;
+    const Real *near =
+        beside[0] * beside[0] + beside[1] * beside[1] + beside[2] * beside[2] > 1 ? beside : NULL;
+    turned_by(data->start_rotation, rotation, 0, 0, near, &q[3]);
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < SIX; k++) load[i] -= (Real)data->hydrostatics[SIX * i + k] * q[k];
     for (int i = 0; i < 3; i++) {
@@ -336,6 +340,11 @@ void body_load(const BodyData *data, const Vector position, const double rotatio
                 twice_energy(data, position, rotation, i, TURN * (Real[]){-2, -1, 1, 2}[k], near);
         load[3 + i] -= (8 * (e[2] - e[1]) - (e[3] - e[0])) / (24 * TURN);
     }
+}
+
+void body_load(const BodyData *data, const Vector position, const double rotation[FOUR],
+               const double gravity[3], Real load[SIX]) {
+    body_load_beside(data, position, rotation, rotation, gravity, load);
 }
 
 /* ---- check ---- */
@@ -601,6 +610,21 @@ static double given_load(const Check *c, size_t k) {
     return fmax(size(given), size(&given[3]) / c->arm[k]);
 }
 
+/* [N] M ((x - x*)/k - v*)/k rounds as poses do, which short steps magnify: M the mass of the body
+ * and of the water about the reference point, places by the largest coordinate, turns by 1, moments
+ * over the arm. */
+static double rounding_of_inertia(const Check *c, size_t k) {
+    const BodyMotion *motion = &c->motion[k];
+    const double *g = c->bodies->data[k].centre_of_gravity, arm = c->arm[k],
+                 place = size(c->now[k].position) + size(g);
+    double of[2] = {motion->mass * place, motion->mass * place * size(g)};
+    for (int i = 0; i < 3; i++) of[1] += fabs(motion->moments[i]) + 2 * fabs(motion->products[i]);
+    for (int i = 0; i < SIX; i++)
+        for (int j = 0; j < SIX; j++)
+            of[i / 3] += fabs(motion->added[SIX * i + j]) * (j < 3 ? place : 1);
+    return ROUNDINGS * DBL_EPSILON * fmax(of[0], of[1] / arm) / (motion->span * motion->span);
+}
+
 /* [N] The largest force in elastic lines and of loads. */
 static void find_largest(Check *c) {
     c->largest = c->rounding = 0;
@@ -616,6 +640,8 @@ static void find_largest(Check *c) {
     for (size_t k = 0; k < c->bodies->count; k++)
         c->largest = fmax(c->largest, fmax(size(c->motion[k].inertia),
                                            size(&c->motion[k].inertia[3]) / c->arm[k]));
+    for (size_t k = 0; k < c->bodies->count; k++)
+        if (c->motion[k].span > 0) c->rounding = fmax(c->rounding, rounding_of_inertia(c, k));
 }
 
 static int check_steps(Check *c, bool (*certified)(int outcome), FILE *log) {

@@ -45,6 +45,11 @@ void bodies_close(Bodies *bodies); /* accepts a zeroed struct */
 void body_load(const BodyData *data, const Vector position, const double rotation[FOUR],
                const double gravity[3], Real load[SIX]);
 
+/* The same where, beyond half a turn from the start, the vector of the turn goes on as it does on
+ * the side of the rotation `side`. */
+void body_load_beside(const BodyData *data, const Vector position, const double rotation[FOUR],
+                      const double side[FOUR], const double gravity[3], Real load[SIX]);
+
 /* The matrix of a rotation, a quaternion of any length but 0. */
 void body_matrix(const double rotation[FOUR], Real m[3][3]);
 

@@ -432,7 +432,7 @@ static void add_load(const StiffnessStep *step, size_t k, const BodyState *at, d
             rotation[1] = (double)(c * q[1] + p[0] * q[0] + p[1] * q[3] - p[2] * q[2]);
             rotation[2] = (double)(c * q[2] + p[1] * q[0] + p[2] * q[1] - p[0] * q[3]);
             rotation[3] = (double)(c * q[3] + p[2] * q[0] + p[0] * q[2] - p[1] * q[1]);
-            body_load(&step->bodies->data[k], position, rotation, step->gravity, load);
+            body_load_beside(&step->bodies->data[k], position, rotation, q, step->gravity, load);
             for (int a = 0; a < SIX; a++) stiffness[SIX * a + i] -= WEIGHT[s] * load[a] / (12 * h);
         }
     }

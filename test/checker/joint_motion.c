@@ -24,7 +24,7 @@
 static const double PLACES = 1e-13, TURNS = 1e-13, FORCES = 1e-10, ENERGIES = 1e-9, SUMS = 1e-14;
 /* Roundings of coordinates in a depth, and in a difference of places that are turned. */
 static const double ROUNDINGS = 16;
-enum { SIMPSON = 64 };
+enum { SIMPSON = 64, SIMPSON_PER_RADIAN = 1024 };
 
 /* ---- reading ---- */
 
@@ -326,16 +326,18 @@ static void vector_between(const double q0[FOUR], const double q[FOUR], Real t[3
     for (int i = 0; i < 3; i++) t[i] *= by;
 }
 
-/* V(t) v: the mean of the rotations by s t, s = 0 .. 1. */
+/* V(t) v: the mean of the rotations by s t, s = 0 .. 1. Simpson's rule errs by the fourth power of
+ * the angle of an interval, which has to be rounding for turns of any size. */
 static void mean_rotation(const Real t[3], const Real v[3], Real out[3]) {
     const Real angle = hypotl(hypotl(t[0], t[1]), t[2]);
+    const int count = SIMPSON + 2 * (int)(SIMPSON_PER_RADIAN / 2 * angle);
     for (int i = 0; i < 3; i++) out[i] = 0;
-    for (int k = 0; k <= SIMPSON; k++) {
-        const Real share = (Real)k / SIMPSON, half = share * angle / 2,
-                   weight = (k == 0 || k == SIMPSON ? 1
-                             : k % 2                ? 4
-                                                    : 2) /
-                            (3.0L * SIMPSON);
+    for (int k = 0; k <= count; k++) {
+        const Real share = (Real)k / count, half = share * angle / 2,
+                   weight = (k == 0 || k == count ? 1
+                             : k % 2              ? 4
+                                                  : 2) /
+                            (3.0L * count);
         double q[FOUR] = {(double)cosl(half), 0, 0, 0};
         Real m[3][3], turned[3];
         for (int i = 0; i < 3; i++) q[1 + i] = angle > 0 ? (double)(sinl(half) * t[i] / angle) : 0;

@@ -164,7 +164,7 @@ WAVE_CHANGES = [
     ("NaN in a phase of excitation", "[90, 0, 0, 0, -90, 0]", "[90, 0, .nan, 0, -90, 0]", INPUT, "11:305: 'phase': found '.nan', expected a number in degree"),
     ("excitation for other periods", "frequency: 0.15", "frequency: 0.18", INPUT, "11:69: body 'hull': excitation: no rows for the direction 30 degrees have the period 6 s of wave 2 between them"),
     ("excitation for another direction", "direction: 360", "direction: 10", INPUT, "11:69: body 'hull': excitation: no rows for the direction 0 degrees have the period 9 s of wave 1 between them"),
-    ("excitation in falling periods", "frequency: 0.15", "frequency: 0.25", INPUT, "11:147: body 'hull': excitation: row 2 has the period 4 s, after 5 s for the same direction: give rows of one direction with periods that increase"),
+    ("excitation twice for a period", "frequency: 0.15", "frequency: 0.2", INPUT, "11:147: body 'hull': excitation: row 2 has the period 5 s and the direction 390 degrees, as row 1: leave one of them out"),
     ("a member in words", MEMBER, "members: [long]", INPUT, "11:332: member: found 'long', expected a mapping with from, to, diameter, normal, tangential, added_normal, strips"),
     ("members in words", MEMBER, "members: all", INPUT, "11:322: 'members': found 'all', expected a list, as in [{...}, {...}]"),
     ("no member", MEMBER, "members: []", INPUT, "11:322: 'members': found a list of 0, expected a list, as in [{...}, {...}]"),

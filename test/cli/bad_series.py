@@ -120,6 +120,11 @@ def main():
         if good.returncode:
             failed += 1
             print("the good scene:", good.stderr)
+        for name, text in GOOD.items():  # as spreadsheets write UTF-8
+            marked = run({**GOOD, name: "\ufeff" + text})
+            if marked.returncode:
+                failed += 1
+                print(f"{name} with a byte order mark:", marked.stderr)
         for name, file, old, new, code, wanted in CHANGES:
             assert not old or GOOD[file].count(old) == 1, name
             done = run({**GOOD, file: GOOD[file].replace(old, new) if old else new})

@@ -37,7 +37,9 @@ CpsStatus cpsi_text_rows_open(CpsiTextRows *rows, const char *path, size_t max_b
     CpsStatus status = cpsi_read_file_itself(path, max_bytes, &rows->bytes, &size, err);
     if (status == CPS_OK && strlen(rows->bytes) != size)
         status = cpsi_fail_at(err, CPS_ERR_INPUT, path, 0, 0, "found a zero byte: is this text?");
-    rows->next = rows->bytes;
+    /* spreadsheets begin UTF-8 with the mark of its bytes' order */
+    rows->next =
+        rows->bytes && strncmp(rows->bytes, "\xEF\xBB\xBF", 3) == 0 ? rows->bytes + 3 : rows->bytes;
     for (const char *c = rows->bytes; c && *c; c++) rows->lines += *c == '\n';
     return status;
 }
