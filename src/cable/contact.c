@@ -160,12 +160,12 @@ static Vec3 reference_normal(const CpsiLine *line, int c, Vec3 to) {
 
 /* Update the angle by which contact c has moved round its obstacle; its normal was `before` at the
  * last base. For an element, whose point of contact changes from base to base, it is the angle from
- * the reference, as on a ball. */
+ * the reference, as on a ball; so it is in what gives, where the way from there is straight. */
 static void update_winding(CpsiLine *line, int c, Vec3 before) {
     const int k = line->obstacle_index[c];
     if (k < 0) return;
     const CpsiObstacle *obstacle = &line->obstacle[k];
-    const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER &&
+    const bool summed = obstacle->kind == CPS_OBSTACLE_CYLINDER && !(obstacle->stiffness > 0) &&
                         cpsi_obstacle_is_round(obstacle) && cpsi_line_element(line, c) < 0;
     const Vec3 from =
         summed ? before : reference_normal(line, c, cpsi_line_place(line, line->base, c));

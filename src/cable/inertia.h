@@ -55,6 +55,7 @@ typedef struct CpsiInertia {
     bool *late;              /* (n) scratch: this step was to be one */
     bool *is_euler;          /* (n) ... and whether it is one */
     bool velocity_given[2];  /* of ends A and B, by the caller */
+    bool goes_too_far;       /* the step is too long for what it goes round, or past: no answer */
     bool moved_in_span;  /* the line's shifts and turns are those in the span, less than a step */
     CpsiFormula formula; /* of the nodes that take no Euler step */
     double error;        /* [m] that the step makes by itself, by its estimate (pace.h) */

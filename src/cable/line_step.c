@@ -38,6 +38,7 @@
 #include "cable/existence.h"
 #include "cable/field.h"
 #include "cable/flow.h"
+#include "cable/held.h"
 #include "cable/line_solve.h"
 #include "cable/mesh_error.h"
 #include "cable/moving_flow.h"
@@ -570,6 +571,21 @@ static void reset_to_reference(CpsiLine *line, const CpsiStepOptions *options) {
     line->report.outcome = CPS_OUTCOME_STALLED;
 }
 
+/* Rounds that end without an answer may leave held nodes on the way. What comes after the step
+ * begins with them where they are held, as the points and bodies there do. */
+static void put_held(CpsiLine *line, const CpsiStepOptions *options) {
+    const CpsiIpmReport none = {.outcome = CPSI_IPM_STALLED};
+    const CpsOutcome outcome = line->report.outcome;
+    bool off = false;
+    for (int j = cpsi_line_next_held(line, 0); j < line->n; j = cpsi_line_next_held(line, j + 1))
+        off = off || !cpsi_vec3_is_zero(
+                         vec3_sub(vec3_at(line->position, j), cpsi_line_held_place(line, j)));
+    if (!off || (outcome != CPS_OUTCOME_STALLED && outcome != CPS_OUTCOME_ITERATION_LIMIT)) return;
+    cpsi_line_put_held(line, line->position);
+    cpsi_line_certify(line, options, &none);
+    line->report.outcome = outcome;
+}
+
 /* Store the forces before the step, to which the tensions of an inextensible line and its reactions
  * in corners are to be nearest. */
 static void store_forces_before(CpsiLine *line) {
@@ -742,6 +758,7 @@ void cpsi_line_step(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOpt
     judge_loads(line, options);
     if (!is_finite(line) || !cpsi_line_is_near(line) || cpsi_contact_bears_beyond(line))
         reset_to_reference(line, options);
+    put_held(line, options);
     if (line->report.places == CPS_PLACES_NEAREST) cpsi_least_motion_restate(line, program);
     report_piercing(line);
     classify(line, line->joined ? line->joined->program : program);

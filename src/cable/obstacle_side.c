@@ -59,12 +59,17 @@ static bool is_passing(double radius, Vec3 a, Vec3 b, Vec3 u, Vec3 v, double sha
     return vec3_norm(point) <= (1 + 2 * CLOSE) * least;
 }
 
+/* Has the obstacle sides? What gives may be gone through. */
+static bool has_sides(const CpsiObstacle *obstacle) {
+    return cpsi_obstacle_is_round(obstacle) && !(obstacle->stiffness > 0);
+}
+
 double cpsi_obstacle_side_share(const CpsiLine *line, const double *from, const double *to,
                                 double most) {
     double share = most;
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *obstacle = &line->obstacle[k];
-        if (!cpsi_obstacle_is_round(obstacle)) continue;
+        if (!has_sides(obstacle)) continue;
         Vec3 a = cpsi_obstacle_spoke(obstacle, vec3_load(from)),
              u = vec3_sub(cpsi_obstacle_spoke(obstacle, vec3_load(to)), a);
         for (int j = 1; j < line->n; j++) {
@@ -83,7 +88,7 @@ int cpsi_obstacle_passed(const CpsiLine *line, const double *from, const double 
     if (!(share < 1)) return CPS_NO_OBSTACLE;
     for (int k = 0; k < line->obstacle_count; k++) {
         const CpsiObstacle *obstacle = &line->obstacle[k];
-        if (!cpsi_obstacle_is_round(obstacle)) continue;
+        if (!has_sides(obstacle)) continue;
         for (int j = 1; j < line->n; j++) {
             const Vec3 a = cpsi_obstacle_spoke(obstacle, vec3_at(from, j - 1)),
                        b = cpsi_obstacle_spoke(obstacle, vec3_at(from, j));

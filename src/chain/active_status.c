@@ -16,7 +16,7 @@ static const double SIGNIFICANT = 1e-4;
 /* Of the neighbours on either side of a node, so many are released with it. Where a whole piece is
  * at its bounds, as after it has slipped, what exceeds them at an iterate may be an error of that
  * iterate. */
-enum { MOST_RELEASED = 30 };
+enum { LEAST_RELEASED = 30 };
 
 /* elements ------------------------------------------------------------------------------------- */
 
@@ -227,6 +227,8 @@ void cpsi_newton_begin(CpsiNewton *newton) {
     const CpsiFrictionDisc *disc = &program->disc;
     newton->lost =
         program->conic.count > 0 || program->drag > 0 || (program->field && program->disc.shape);
+    newton->most_released = LEAST_RELEASED;
+    newton->releases_more = false;
     note_anchored(newton);
     memset(newton->status, 0, 2 * (size_t)program->n);
     memset(newton->piece, 0, (size_t)program->n * sizeof *newton->piece);
@@ -250,6 +252,25 @@ void cpsi_newton_begin(CpsiNewton *newton) {
     if (program->segment.compliance > 0) return;
     for (int i = 1; i < program->n && !newton->lost; i++)
         newton->lost = newton->taut[i] && cpsi_newton_is_fixed(newton, i);
+}
+
+/* The force on contact k pulls its node off by `pull`: an edge at which a line leaves what bears it
+ * should lie farther back, where the reactions up to it sum to that. Those nodes are open too. */
+static void open_neighbours(CpsiNewton *newton, int k, double pull) {
+    const CpsiChainProgram *program = newton->program;
+    const CpsiUnilateral *unilateral = &program->unilateral;
+    for (int side = -1; side <= 1; side += 2) {
+        double left = pull;
+        for (int e = k + side; e >= 0 && e < unilateral->count; e += side) {
+            const int j = unilateral->node[e];
+            if (j != unilateral->node[e - side] + side || !(newton->status[j] & CPSI_CLOSED) ||
+                cpsi_newton_is_corner(newton, j) || cpsi_newton_is_point(newton, j))
+                break;
+            left -= fmax(0, -program->base.residual[3 * j + 2]);
+            if (left <= 0) break;
+            newton->status[j] &= CPSI_HAS_FRICTION;
+        }
+    }
 }
 
 /* Which contacts are closed; R of those. */
@@ -277,6 +298,7 @@ static void decide_contacts(CpsiNewton *newton) {
             if (force >= -newton->noise * newton->force) continue;
             *status &= CPSI_HAS_FRICTION;
             newton->changed = true;
+            if (!is_point) open_neighbours(newton, k, -force);
         } else if (gap < -newton->rounding) {
             newton->lost |=
                 (*status & CPSI_BARRED) || (is_point && !cpsi_newton_may_close_point(newton, j));
@@ -337,8 +359,12 @@ static void release_neighbours(CpsiNewton *newton, int d, const CpsiNodeFriction
     for (int a = 0; a < 2; a++) q[a] /= size;
     for (int side = -1; side <= 1; side += 2) {
         double left = disc->weight[d] * excess;
-        int most_released = MOST_RELEASED;
-        for (int e = d + side; e >= 0 && e < disc->count && most_released-- > 0; e += side) {
+        int released = 0;
+        for (int e = d + side; e >= 0 && e < disc->count; e += side) {
+            if (released++ == newton->most_released) {
+                newton->releases_more = true;
+                break;
+            }
             const int j = disc->node[e];
             if (j != disc->node[e - side] + side || !(newton->status[j] & CPSI_STICKS) ||
                 cpsi_newton_is_corner(newton, j))
@@ -393,6 +419,7 @@ static void stop_run(CpsiNewton *newton, int first, int last) {
         if (after) to = first + (released - 1) / 2;
         if (before) from = last - (released - 1) / 2;
     }
+    if (released > 0) newton->most_released = LEAST_RELEASED;
     for (int d = from; d <= to; d++) stop(newton, d);
 }
 
@@ -401,7 +428,8 @@ static void stop_friction(CpsiNewton *newton) {
     const CpsiFrictionDisc *disc = &newton->program->disc;
     for (int d = 0, next; d < disc->count; d = next) {
         next = d + 1;
-        if (!cpsi_newton_has_friction(newton, d) || (newton->status[disc->node[d]] & CPSI_STICKS))
+        if (!cpsi_newton_has_friction(newton, d) ||
+            (newton->status[disc->node[d]] & (CPSI_STICKS | CPSI_LANDS)))
             continue;
         const double pushed = push(newton, d);
         if (pushed < 0) newton->status[disc->node[d]] &= (unsigned char)~CPSI_RELEASED;
@@ -453,6 +481,8 @@ static void decide_piece(CpsiNewton *newton, int d) {
 static void decide_friction(CpsiNewton *newton) {
     const CpsiChainProgram *program = newton->program;
     const CpsiFrictionDisc *disc = &program->disc;
+    if (newton->releases_more) newton->most_released *= 2;
+    newton->releases_more = false;
     for (int d = 0; d < disc->count; d++) {
         if (!cpsi_newton_has_friction(newton, d)) continue;
         unsigned char *status = &newton->status[disc->node[d]];

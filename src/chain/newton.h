@@ -45,14 +45,16 @@ typedef struct CpsiNewton {
                                 that slips */
     CpsiCorner *corner;      /* (most_corners) */
     int corner_count, most_corners;
-    double *frame;                    /* (n, 9) the axes of the nodes in the linear system, those
-                                         along an edge turned; NULL: as they are */
-    double rounding;                  /* of an elongation, and of a force per largest force */
-    double noise;                     /* the same of a force between nodes at rest */
-    double force;                     /* the largest force */
-    double residual;                  /* errors of the equations at the iterate before */
-    bool polishes;                    /* the guess is the solution but for its last digits */
-    int slackened;                    /* how often an element between nodes that move went slack */
+    double *frame;      /* (n, 9) the axes of the nodes in the linear system, those
+                           along an edge turned; NULL: as they are */
+    double rounding;    /* of an elongation, and of a force per largest force */
+    double noise;       /* the same of a force between nodes at rest */
+    double force;       /* the largest force */
+    double residual;    /* errors of the equations at the iterate before */
+    bool polishes;      /* the guess is the solution but for its last digits */
+    int most_released;  /* neighbours on either side of a node that are released with it */
+    bool releases_more; /* ... were fewer than its force asked for */
+    int slackened;      /* how often an element between nodes that move went slack */
     double strain_error, force_error; /* of the equations, at most */
     bool changed;                     /* the active set has changed */
     bool lost;                        /* there is something that this method does not treat */

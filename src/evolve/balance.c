@@ -252,7 +252,7 @@ static bool search_on(CpsiBalance *balance, int trials, int patience) {
         memcpy(balance->rigid_from, balance->rigid, rigid);
         longer = take_step(balance, good ? 0 : SHORTENINGS, longer);
     }
-    if (best < INFINITY && best < cpsi_left_now(balance)) {
+    if (best < INFINITY && (!balance->certified || best < cpsi_left_now(balance))) {
         memcpy(balance->at, balance->best, bytes);
         memcpy(balance->rigid, balance->rigid_best, rigid);
         cpsi_try_places(balance);

@@ -71,8 +71,15 @@ static void withdraw_proof(CpsEvolution *evolution, int index) {
     report->certificate = cpsi_certificate(line, evolution->options.solver.tolerance);
 }
 
-/* Is there a free point without a place? Then the lines there are not certified; nor do they prove
- * that there is no equilibrium, which would depend on the places tried. */
+/* Has a line gone too far in a step in time? */
+static bool goes_too_far(const CpsiBalance *balance, int item) {
+    const CpsiLine *line = &balance->evolution->line[balance->line[item]];
+    return balance->evolution->interval > 0 && line->has_inertia && line->inertia.goes_too_far;
+}
+
+/* Is there a free point without a place, or has a line gone too far? Then the lines there are not
+ * certified; nor do they prove that there is no equilibrium, which would depend on the places
+ * tried. */
 static void report_lines(CpsiBalance *balance) {
     CpsEvolution *evolution = balance->evolution;
     bool all = balance->certified;
@@ -80,6 +87,8 @@ static void report_lines(CpsiBalance *balance) {
         all = all && evolution->points.point[balance->at[k].point].report.has_place;
     for (int k = 0; k < balance->body_count; k++)
         all = all && evolution->bodies.body[balance->rigid[k].body].report.has_place;
+    for (int item = 0; item < balance->line_count; item++)
+        all = all && !goes_too_far(balance, item);
     for (int item = 0; item < balance->line_count; item++) {
         CpsLineReport *report = &evolution->line[balance->line[item]].report;
         report->iteration_count += balance->iterations[balance->line[item]];

@@ -561,12 +561,21 @@ static Vec3 without_slip(const CpsiObstacle *on, Vec3 start, Vec3 x) {
     return vec3_axpy(higher, cpsi_obstacle_normal(on, start), start);
 }
 
+/* The place x in what gives, as deep as the tangent plane says: the way along that leads out of
+ * what is round, by its square over the radius, of which a stiff ground makes a large force. */
+static Vec3 as_deep_as_planned(const CpsiObstacle *on, const CpsiFree *from, Vec3 x) {
+    if (on->kind == CPS_OBSTACLE_PLANE) return x;
+    const double gap = from->gap + vec3_dot(from->normal, vec3_sub(x, from->place));
+    return vec3_axpy(gap - cpsi_obstacle_gap(on, x), cpsi_obstacle_normal(on, x), x);
+}
+
 /* The place of a point that is to touch what gives, after a share of the step. */
 static Vec3 place_within(const CpsiBalance *balance, const CpsiFree *from, bool floats, Vec3 x,
                          double share) {
     const CpsEvolution *evolution = balance->evolution;
-    if (cpsi_is_to_stick(from) && share == 1)
-        x = without_slip(&evolution->obstacle[from->obstacle], from->start, x);
+    const CpsiObstacle *on = &evolution->obstacle[from->obstacle];
+    x = as_deep_as_planned(on, from, x);
+    if (cpsi_is_to_stick(from) && share == 1) x = without_slip(on, from->start, x);
     if (!(from->water.displaced > 0)) return x;
     const CpsiSurface *surface = &evolution->points.point[from->point].surface;
     return floats && share == 1 ? cpsi_surface_below(surface, x)

@@ -317,7 +317,7 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     double share = attempt(line, program, options, move, scratch, step);
     int iterations = line->report.iteration_count;
     if (cps_outcome_is_certified(line->report.outcome) && step->scheme != CPS_TIME_SCHEME_EULER &&
-        !step->restarts && !step->once && find_rough(line, step->formula.length)) {
+        !step->restarts && !step->in_group && find_rough(line, step->formula.length)) {
         cpsi_substeps_restore(line, scratch);
         line->last_change.known = goes_on; /* what is expected of the step does not depend on it */
         share = attempt(line, program, options, move, scratch, step);
@@ -332,7 +332,7 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
     }
     const bool stalled = !cps_outcome_is_certified(line->report.outcome) &&
                          !cps_outcome_is_final(line->report.outcome);
-    if (stalled && step->scheme != CPS_TIME_SCHEME_EULER && !step->restarts && !step->once) {
+    if (stalled && step->scheme != CPS_TIME_SCHEME_EULER && !step->restarts && !step->in_group) {
         /* x* of (9b) may lie where contacts are not those of the step: by (9c) it is x_n */
         cpsi_substeps_restore(line, scratch);
         line->last_change.known = goes_on;
@@ -341,15 +341,17 @@ void cpsi_line_time_step(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
         iterations += line->report.iteration_count;
     }
     /* the way of what went farther round an obstacle is not known, nor on which side of it a line
-     * is that it goes past: the steps are too long */
-    if (cps_outcome_is_certified(line->report.outcome) &&
-        (cpsi_contact_turns_too_far(line) || ground_outruns(line, move)))
-        line->report.outcome = CPS_OUTCOME_STALLED;
+     * is that it goes past: the steps are too long. In a group that is said at its end
+     * (balance_report.c): the forces of a trial are what they are */
+    inertia->goes_too_far = cps_outcome_is_certified(line->report.outcome) &&
+                            (cpsi_contact_turns_too_far(line) || ground_outruns(line, move));
+    if (inertia->goes_too_far && !step->in_group) line->report.outcome = CPS_OUTCOME_STALLED;
     line->report.iteration_count = iterations;
     line->report.places = CPS_PLACES_UNIQUE;
     line->report.substep_count = 1;
     line->report.share = share;
-    line->last_change.known = cps_outcome_is_certified(line->report.outcome);
+    line->last_change.known =
+        cps_outcome_is_certified(line->report.outcome) && !inertia->goes_too_far;
     if (cps_outcome_is_final(line->report.outcome))
         stay(line);
     else

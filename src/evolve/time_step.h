@@ -10,7 +10,7 @@ typedef struct CpsiTimeStep {
     CpsiFormula formula;
     CpsTimeScheme scheme;
     bool restarts; /* the obstacles have not moved at this rate before: an Euler step */
-    bool once;     /* not again where it is rough: that is for the group of lines to do */
+    bool in_group; /* which takes it again where it is rough, and says where it goes too far */
 } CpsiTimeStep;
 
 /* Take the step; the line has mass. Its report is that of a step of one part, and its motion in

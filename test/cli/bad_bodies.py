@@ -147,9 +147,9 @@ CHANGES = [
 
 # replacements in GOOD, and what `capstan check` prints then
 ACCEPTED = [
-    ([], "  fixed in z rx\n  weight 5000 N at (0, 0, -3) m\n  buoyancy 6000 N at (0, 0, -2) m\n  hydrostatics [0 0 0 0 0 0]\n"
-         "               [0 0 0 0 0 0]\n               [0 0 400 0 0 0]\n               [0 0 0 30 0 0]\n               [0 0 0 0 30 0]\n"
-         "               [0 0 0 0 0 0]\n  force (1, 2, 3) N, moment (-20, 10, 0) N m\n"
+    ([], "  fixed in z rx\n  weight 5000 N at (0, 0, -3) m\n  buoyancy 6000 N at (0, 0, -2) m\n  hydrostatics      [0 0 0 0 0 0]\n"
+         "                    [0 0 0 0 0 0]\n                    [0 0 400 0 0 0]\n                    [0 0 0 30 0 0]\n                    [0 0 0 0 30 0]\n"
+         "                    [0 0 0 0 0 0]\n  force (1, 2, 3) N, moment (-20, 10, 0) N m\n"
          "body barge: held at (20, 0, 0) m, rotation (1, 0, 0, 0)\npoint anchor: held at (-30, 0, -50) m\n"
          "point eye: on body spar at (1, 0, -5) m\n"),
     # by hand: yaw about z first, then pitch about the new y: qz qy
@@ -160,7 +160,7 @@ ACCEPTED = [
     ([(TURN, "{quaternion: [2, 0, 0, 0]}")], "rotation (2, 0, 0, 0)\n"),
     ([("    mass: 500\n", "    weight: 7\n")], "  weight 7 N at (0, 0, -3) m\n"),
     ([("    volume: 0.6\n", "    buoyancy: 8\n")], "  buoyancy 8 N at (0, 0, -2) m\n"),
-    ([(WATER, matrix(e22=400, e04=5, e40=5))], "  hydrostatics [0 0 0 0 5 0]\n"),
+    ([(WATER, matrix(e22=400, e04=5, e40=5))], "  hydrostatics      [0 0 0 0 5 0]\n"),
     ([("    arm: [0, 0, 10]\n", "    arm: [0, 0, 10]\n    moment: [0, 0, 7]\n")], "force (1, 2, 3) N, moment (-20, 10, 7) N m\n"),
     ([("{body: spar, at: [1, 0, -5]}", "{body: spar}")], "point eye: on body spar at (0, 0, 0) m\n"),
     ([(PUSH, "{position: [1, 0, 0], rotation: {roll_pitch_yaw: [0, 0, 0]}}")], "history: 2 entries, 3 load steps in all\n"),

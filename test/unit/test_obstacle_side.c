@@ -114,6 +114,13 @@ static void by_hand(void **state) {
                1e-12); /* half of its own distance */
     const double on[6] = {-5, 0, 0, 5, 0, 1};
     CHECK_NEAR(cpsi_obstacle_side_share(&line, on, across, 1), 1, 0);
+    /* what gives may be gone through */
+    def.stiffness = 1e9;
+    const CpsiObstacle soft = cpsi_obstacle(&def);
+    const CpsiLine over = {.n = 2, .obstacle_count = 1, .obstacle = &soft};
+    CHECK_NEAR(cpsi_obstacle_side_share(&over, from, across, 1), 1, 0);
+    assert_int_equal(cpsi_obstacle_passed(&over, from, across), CPS_NO_OBSTACLE);
+    assert_int_equal(cpsi_obstacle_passed(&line, from, across), 0);
 }
 
 int main(void) {
