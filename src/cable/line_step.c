@@ -454,7 +454,9 @@ static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
         if (line->has_local_axes) cpsi_contact_reset(line);
         solve_with_fallbacks(line, program, options, guess);
     }
-    if (round > 0 && !(followed && certified)) turn_swim(line, program, options, &left);
+    /* beside obstacles its trials in a group were left where nothing found a place */
+    if (round > 0 && !(followed && certified) && line->obstacle_count == 0)
+        turn_swim(line, program, options, &left);
     const CpsOutcome outcome = line->report.outcome;
     end_swim(line, left);
     cpsi_line_certify(line, options, &SWUM);
