@@ -443,20 +443,21 @@ static void turn_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
 static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     const size_t contacts = (size_t)cpsi_line_all_contacts(line);
     double left;
-    bool followed, certified;
+    bool certified;
     int round = 0;
     for (;; round++) {
         certified = cps_outcome_is_certified(line->report.outcome);
-        followed = has_followed(line, line->report.certificate.largest_force, &left);
-        if (followed || !certified || round == MOST_SWIMS) break;
+        if (has_followed(line, line->report.certificate.largest_force, &left) || !certified ||
+            round == MOST_SWIMS)
+            break;
         const CpsiGuess guess = approach(line, program, options, left);
         if (guess == CPSI_GUESS_NONE) memset(line->reaction, 0, contacts * sizeof *line->reaction);
         if (line->has_local_axes) cpsi_contact_reset(line);
         solve_with_fallbacks(line, program, options, guess);
     }
-    /* beside obstacles its trials in a group were left where nothing found a place */
-    if (round > 0 && !(followed && certified) && line->obstacle_count == 0)
-        turn_swim(line, program, options, &left);
+    /* what the loads lack is within the tolerance: a start that leads nowhere would lack more */
+    const bool near = left <= options->solver.tolerance * line->report.certificate.largest_force;
+    if (round > 0 && !(certified && near)) turn_swim(line, program, options, &left);
     const CpsOutcome outcome = line->report.outcome;
     end_swim(line, left);
     cpsi_line_certify(line, options, &SWUM);
