@@ -38,6 +38,16 @@ static void steps(CpsEvolution *evolution, int count, Sums *sums) {
     }
 }
 
+/* The history of `count` steps in which the ground is shifted. */
+static TimeRun carried(TimeRig *rig, const CpsShift *shift, double time, int count, Sums *sums) {
+    CpsStage *stage = time_stage(rig, time, count);
+    stage->shift = shift;
+    stage->shift_count = 1;
+    TimeRun run = time_open(rig);
+    steps(run.evolution, count, sums);
+    return run;
+}
+
 /* A belt that starts with the velocity V drags a line at rest along: it lags behind by V^2/(2 mu
  * g), then it goes with the belt. The belt does twice the work of the kinetic energy, half of it
  * lost. */
@@ -52,12 +62,8 @@ static void a_belt_takes_a_line_along(void **state) {
             TimeRig rig;
             begin(&rig, (CpsTimeScheme)scheme, friction);
             const CpsShift shift = {.obstacle = 0, .by = {speed * time, 0, 0}};
-            CpsStage *stage = time_stage(&rig, time, count);
-            stage->shift = &shift;
-            stage->shift_count = 1;
-            TimeRun run = time_open(&rig);
             Sums sums = {0};
-            steps(run.evolution, count, &sums);
+            TimeRun run = carried(&rig, &shift, time, count, &sums);
             const CpsLineView view = cps_evolution_line_view(run.evolution, 0);
             const CpsLineMotion motion = cps_evolution_line_motion(run.evolution, 0);
             char name[48];
@@ -211,12 +217,8 @@ static void a_line_goes_with_a_deck(void **state) {
     memcpy(rig.line.velocity, by, sizeof by);
     CpsShift shift = {.obstacle = 0};
     memcpy(shift.by, by, sizeof by);
-    CpsStage *stage = time_stage(&rig, time, count);
-    stage->shift = &shift;
-    stage->shift_count = 1;
-    TimeRun run = time_open(&rig);
     Sums sums = {0};
-    steps(run.evolution, count, &sums);
+    TimeRun run = carried(&rig, &shift, time, count, &sums);
     const double *place = cps_evolution_line_view(run.evolution, 0).position;
     time_report("deck", "x of the line [m]", 2 + by[0], place[0]);
     time_report("deck", "y of the line [m]", by[1], place[1]);
