@@ -19,6 +19,7 @@
  * inertia takes up. */
 #include "cable/moving_flow.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -32,6 +33,9 @@
 
 /* Programs whose change is not below this share of the change before are accelerated. */
 static const double SLOW = 0.5;
+/* Roundings of places in the force of a field: of the node's, and of two that add up to the
+ * field's, in three directions. */
+static const double ROUNDINGS = 4;
 
 /* The velocity of node j at the place x. */
 static inline Vec3 velocity_of(const CpsiLine *line, const double *x, int j) {
@@ -177,6 +181,14 @@ void cpsi_line_begin_swim(CpsiLine *line) {
     line->field.left = INFINITY;
 }
 
+/* [N] What the rounding of the place of node j and of its field leaves of the field's force. */
+static double rounding_at(const CpsiLine *line, int j) {
+    const double *k = &line->field.stiffness[6 * j];
+    const Vec3 x = vec3_at(line->position, j);
+    return ROUNDINGS * DBL_EPSILON * (k[0] + k[2] + k[5]) *
+           fmax(fabs(x.x), fmax(fabs(x.y), fabs(x.z)));
+}
+
 double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
     double changed = 0, most = 0;
     see_water(line, line->position);
@@ -189,7 +201,7 @@ double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
                    now = vec3_add(vec3_add(seen.drag, seen.wave), added_force(&seen, rate, faster)),
                    used = vec3_axpy(rate * line->inertia.mass[j], faster,
                                     cpsi_line_field_force(line, j, x));
-        changed += vec3_norm(vec3_sub(now, used));
+        changed += cpsi_max_nan(0, vec3_norm(vec3_sub(now, used)) - rounding_at(line, j));
         most = cpsi_max_nan(most, vec3_norm(now));
     }
     *largest = most;
