@@ -597,17 +597,15 @@ static void check_motion(Check *c) {
     body_motion_check(&steps, find_in_time, c);
 }
 
-/* [N] The given load on a body, moments over its arm: what is not of weight, buoyancy and water.
- * Another part of the load may cancel it, as the moment of the weight a given moment, so that the
- * whole load does not tell what acts. Where gravity has changed its change counts as given. */
-static double given_load(const Check *c, size_t k) {
-    const double down = size(c->source->gravity), *load = c->now[k].load;
+double body_given_load(const Source *source, const BodyData *data, const BodyState *at,
+                       double arm) {
+    const double down = size(source->gravity);
     double per[3], given[SIX];
     Real own[SIX];
-    for (int a = 0; a < 3; a++) per[a] = down > 0 ? c->source->gravity[a] / down : 0;
-    body_load(&c->bodies->data[k], c->now[k].position, c->now[k].rotation, per, own);
-    for (int i = 0; i < SIX; i++) given[i] = load[i] - (double)own[i];
-    return fmax(size(given), size(&given[3]) / c->arm[k]);
+    for (int a = 0; a < 3; a++) per[a] = down > 0 ? source->gravity[a] / down : 0;
+    body_load(data, at->position, at->rotation, per, own);
+    for (int i = 0; i < SIX; i++) given[i] = at->load[i] - (double)own[i];
+    return fmax(size(given), size(&given[3]) / arm);
 }
 
 /* [N] M ((x - x*)/k - v*)/k rounds as poses do, which short steps magnify: M the mass of the body
@@ -635,7 +633,8 @@ static void find_largest(Check *c) {
     for (size_t k = 0; k < c->source->points; k++)
         c->largest = fmax(c->largest, size(c->point[k].load));
     for (size_t k = 0; k < c->bodies->count; k++)
-        c->largest = fmax(fmax(c->largest, given_load(c, k)),
+        c->largest = fmax(fmax(c->largest, body_given_load(c->source, &c->bodies->data[k],
+                                                           &c->now[k], c->arm[k])),
                           fmax(size(c->now[k].load), size(&c->now[k].load[3]) / c->arm[k]));
     for (size_t k = 0; k < c->bodies->count; k++)
         c->largest = fmax(c->largest, fmax(size(c->motion[k].inertia),

@@ -51,14 +51,15 @@ typedef struct Points {
     PointSets *sets; /* NULL: none */
     bool *gives;     /* (points) of the step: it floats, or is an anchor that drags */
     Bodies bodies;
-    BodyState *body; /* (bodies) of the step */
-    double *dragged; /* (points) [m] before the step */
-    double surface;  /* [m] z of the water's surface */
+    BodyState *body;         /* (bodies) of the step */
+    BodyMotion *body_motion; /* (bodies) */
+    double *dragged;         /* (points) [m] before the step */
+    double surface;          /* [m] z of the water's surface */
     bool has_surface;
     double *length;  /* (points) [m] of the longest line that ends there */
     double *area;    /* (points) [m2] with which it bears itself on what gives */
     double largest;  /* [N] of the step */
-    double acting;   /* [N] of it what no tension without a bound may have made */
+    double acting;   /* [N] of it and of bodies what no tension without a bound may have made */
     double rounding; /* [N] of the tensions by that of places */
     bool certified, has_friction;
     size_t step, point;
@@ -480,8 +481,8 @@ static void check_friction(const Points *p, const Junction *at) {
     if (at->state == POINT_STICK) at_most(p, "slip of a point at rest", size(at->slip), 2 * way);
     /* a slip no longer than places are known to has no direction */
     if (isfinite(bound) && at->has_place && size(at->slip) > 2 * way) {
-        const double allowed =
-            (BALANCED * p->source->tolerance * p->largest + force) * (size(at->slip) + way);
+        const double allowed = (BALANCED * p->source->tolerance * p->acting + p->rounding + force) *
+                               (size(at->slip) + way);
         at_most(p, "what the law of friction lacks", bound * size(at->slip) - slid, allowed);
         at_most(p, "what friction is off the direction of the slip",
                 off_law(at->friction, at->slip, bound) - bound * way, allowed);
@@ -527,8 +528,16 @@ static void find_acting(Points *p) {
         p->acting = fmax(p->acting, acts_in_line(&p->line[i]));
         p->rounding = fmax(p->rounding, rounding_in_line(&p->line[i]));
     }
-    /* beside bodies, whose loads bodies.c counts, inextensible lines are never pulled straight */
-    p->acting = p->bodies.count > 0 ? p->largest : fmin(p->acting, p->largest);
+    p->acting = fmin(p->acting, p->largest);
+    /* beside bodies inextensible lines are never pulled straight, and what acts on the bodies acts
+     * on the points as well */
+    if (p->bodies.count > 0) p->acting = p->largest;
+    for (size_t k = 0; k < p->bodies.count; k++) {
+        const BodyState *at = &p->body[k];
+        const double given = body_given_load(p->source, &p->bodies.data[k], at, INFINITY);
+        p->acting =
+            fmax(fmax(p->acting, given), fmax(size(at->load), size(p->body_motion[k].inertia)));
+    }
 }
 
 static void find_in_time(void *user, const char *what, double said, double expected) {
@@ -657,6 +666,9 @@ static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
                   point_sets_read(source, p->step, p->sets, log);
         for (size_t i = 0; i < source->lines && !bad; i++)
             bad = record_read(source, source->line_name[i], p->step, &p->line[i], log);
+        if (!bad && p->bodies.count > 0)
+            bad = bodies_read(source, &p->bodies, p->step, p->body, log) ||
+                  body_motions_read(source, p->bodies.count, p->step, p->body_motion, log);
         if (bad) return -1;
         p->has_friction = !(source->has_static && p->step == 0);
         check_step(p);
@@ -666,8 +678,6 @@ static int check_steps(Points *p, bool (*certified)(int outcome), FILE *log) {
         }
         for (size_t k = 0; k < source->points; k++)
             p->gives[k] = p->anchor[k].drags || (p->has_surface && p->water[k].displaced > 0);
-        if (p->bodies.count > 0 && bodies_read(source, &p->bodies, p->step, p->body, log))
-            return -1;
         const GroupStep at = {source,   p->line,    p->now,  p->step > 0 ? p->before : NULL,
                               p->gives, &p->bodies, p->body, p->step,
                               p->find,  p->user};
@@ -749,9 +759,11 @@ int points_check(const Source *source, bool (*certified)(int outcome), PointFind
     p.sets = point_sets_open(source, &unread, log);
     if (unread) bad = -1;
     p.body = calloc(p.bodies.count + 1, sizeof *p.body);
-    if (!bad) bad = p.body ? check_steps(&p, certified, log) : -1;
+    p.body_motion = calloc(p.bodies.count + 1, sizeof *p.body_motion);
+    if (!bad) bad = p.body && p.body_motion ? check_steps(&p, certified, log) : -1;
     bodies_close(&p.bodies);
     free(p.body);
+    free(p.body_motion);
     free(p.gives);
     for (size_t i = 0; i < source->lines && p.line; i++) record_destroy(&p.line[i]);
     free(p.line);
