@@ -75,14 +75,17 @@ static void step_line(void *data, int workspace_index, int i) {
     options.least = &workspace->least;
     cpsi_workspace_attach(workspace, line);
     memset(line->ground, 0, sizeof line->ground);
-    if (evolution->has_static && evolution->done == 0 && evolution->is_static[i]) {
+    const bool is_first = evolution->has_static && evolution->done == 0;
+    if (is_first && evolution->is_static[i]) {
         options.frictionless = true;
         CpsiStepOptions placing = options;
         placing.contact_policy = CPS_CONTACT_POLICY_REACHED;
         cpsi_line_place_statically(line, &workspace->program, &placing, &workspace->scratch);
     } else {
         if (evolution->move[i].shift) line->obstacle = workspace->scratch.obstacle;
-        const bool rests = line->has_inertia && !(evolution->interval > 0);
+        /* In the step that places others a line keeps the velocity with which the history begins.
+         */
+        const bool rests = line->has_inertia && !(evolution->interval > 0) && !is_first;
         if (rests) cpsi_line_stop(line);
         if (line->has_inertia && evolution->interval > 0)
             move_line(evolution, workspace, line, &evolution->move[i]);
