@@ -239,9 +239,11 @@ static CpsStatus take_float(const Split *s, int i, int k, CpsPoint *point) {
     if (!point->name) return cpsi_document_no_memory(s->d);
     vec3_store(point->position, vec3_axpy(share, vec3_sub(b, a), a));
     if (line->start.kind == CPS_START_STATIC) point->position[2] = s->scene->water_surface;
+    memcpy(point->velocity, line->velocity, sizeof point->velocity);
     for (int w = 0; w < values->point_weights.count; w++) {
         if (node_at(line, weight[w].at) != node) continue;
         point->weight += line->point_weight[w].weight;
+        point->inertia += line->point_weight[w].inertia;
         if (weight[w].floats)
             point->displaced_weight += s->values->water * weight[w].volume * gravity;
     }
