@@ -236,6 +236,13 @@ void cpsi_line_end_swim(CpsiLine *line, double left) {
     }
 }
 
+void cpsi_line_add_water_stiffness(const CpsiLine *line, int j, double k[6]) {
+    const CpsiWaterForces *of = &line->field.seen[j / CPSI_LANES];
+    const int l = j % CPSI_LANES;
+    const double rate = 1 / line->inertia.span[j];
+    for (int i = 0; i < 6; i++) k[i] += rate * (of->slope[i][l] + rate * of->mass[i][l]);
+}
+
 void cpsi_line_settle_swim(CpsiLine *line) {
     see_water(line, line->position);
     cpsi_line_end_swim(line, line->field.left);

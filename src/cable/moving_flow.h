@@ -28,5 +28,9 @@ double cpsi_line_swim_change(const CpsiLine *line, double *largest);
  * field inertia alone; and the same where it is yet to be seen. */
 void cpsi_line_end_swim(CpsiLine *line, double left);
 void cpsi_line_settle_swim(CpsiLine *line);
+/* Add to K (6) [N/m] of node j what the flow's forces, where it was seen, lose with its place, by
+ * its velocity and acceleration; that they change with the directions of the elements is not in it.
+ */
+void cpsi_line_add_water_stiffness(const CpsiLine *line, int j, double k[6]);
 
 #endif

@@ -24,6 +24,7 @@
 #include "cable/contact_surface.h"
 #include "cable/end_set.h"
 #include "cable/field.h"
+#include "cable/moving_flow.h"
 #include "cable/potential.h"
 #include "cable/soft.h"
 #include "chain/frame.h"
@@ -219,13 +220,19 @@ static void load_contact(Tangent *t, int j, int c) {
     if (t->curved) load_curvature(t, j, c, &at);
 }
 
+/* What acts on node j by its place. */
+static void field_at(const CpsiLine *line, int j, double k[6]) {
+    cpsi_potential_stiffness(line, j, k);
+    if (cpsi_line_swims(line)) cpsi_line_add_water_stiffness(line, j, k);
+}
+
 /* The field at node j, in its axes. */
 static void load_field(Tangent *t, int j) {
     static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5}, FROM[6] = {0, 1, 4, 2, 5, 8};
     const CpsiLine *line = t->line;
     const double *axes = t->program->frame ? &t->program->frame[9 * j] : line->common_axes;
     double k[6], given[9], own[9];
-    cpsi_potential_stiffness(line, j, k);
+    field_at(line, j, k);
     for (int i = 0; i < 9; i++) given[i] = k[AT[i]] * line->length / t->force;
     cpsi_frame_turn(own, axes, given);
     for (int i = 0; i < 6; i++) t->matrix->diagonal[6 * j + i] += own[FROM[i]];
@@ -371,7 +378,7 @@ static void add_field_of_end(const CpsiLine *line, int end, double out[36]) {
     static const int AT[9] = {0, 1, 3, 1, 2, 4, 3, 4, 5};
     if (!cpsi_line_has_field(line)) return;
     double own[6];
-    cpsi_potential_stiffness(line, cpsi_line_end_node(line, end), own);
+    field_at(line, cpsi_line_end_node(line, end), own);
     for (int i = 0; i < 9; i++) out[6 * (3 * end + i / 3) + 3 * end + i % 3] += own[AT[i]];
 }
 
