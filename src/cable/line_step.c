@@ -373,10 +373,11 @@ static const CpsiIpmReport SWUM = {.outcome = CPSI_IPM_SOLVED};
 static const double ROUGHLY = 0.02;
 
 /* Has the flow, which is seen at the position, been that of the last program? */
-static bool has_followed(const CpsiLine *line, double force, double *left) {
-    double largest;
-    *left = cpsi_line_swim_change(line, &largest);
-    return *left <= CPSI_FOLLOWED * fmax(force, largest);
+static bool has_followed(CpsiLine *line, double force, double *left) {
+    const CpsiSwimLack lack = cpsi_line_swim_lack(line);
+    *left = lack.force;
+    line->field.rounding = lack.rounding;
+    return lack.force <= CPSI_FOLLOWED * fmax(force, lack.largest) + lack.rounding;
 }
 
 /* Go on to the next program. */
@@ -439,6 +440,12 @@ static void turn_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
     (void)has_followed(line, line->report.certificate.largest_force, left);
 }
 
+/* [N] What the loads of an answer may lack of those of its place. */
+static double allowed_lack(const CpsiLine *line, const CpsiStepOptions *options) {
+    return options->solver.tolerance * line->report.certificate.largest_force +
+           (cpsi_line_swims(line) ? line->field.rounding : 0);
+}
+
 /* Go on from the solution of the first program. */
 static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepOptions *options) {
     const size_t contacts = (size_t)cpsi_line_all_contacts(line);
@@ -456,7 +463,7 @@ static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
         solve_with_fallbacks(line, program, options, guess);
     }
     /* what the loads lack is within the tolerance: a start that leads nowhere would lack more */
-    const bool near = left <= options->solver.tolerance * line->report.certificate.largest_force;
+    const bool near = left <= allowed_lack(line, options);
     if (round > 0 && !(certified && near)) turn_swim(line, program, options, &left);
     const CpsOutcome outcome = line->report.outcome;
     end_swim(line, left);
@@ -535,9 +542,8 @@ static void step_in_flow(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
 
 /* Loads that are not those of the place are no answer. */
 static void judge_loads(CpsiLine *line, const CpsiStepOptions *options) {
-    const CpsCertificate *found = &line->report.certificate;
     if (cps_outcome_is_certified(line->report.outcome) &&
-        !(found->load_residual <= options->solver.tolerance * found->largest_force))
+        !(line->report.certificate.load_residual <= allowed_lack(line, options)))
         line->report.outcome = CPS_OUTCOME_STALLED;
 }
 

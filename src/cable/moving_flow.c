@@ -33,9 +33,9 @@
 
 /* Programs whose change is not below this share of the change before are accelerated. */
 static const double SLOW = 0.5;
-/* Roundings of places in the force of a field: of the node's, and of two that add up to the
- * field's, in three directions. */
-static const double ROUNDINGS = 4;
+/* Roundings of places in the force of a field: half a unit each of the node's, and of three that
+ * add up to the field's. */
+static const double ROUNDINGS = 2;
 
 /* The velocity of node j at the place x. */
 static inline Vec3 velocity_of(const CpsiLine *line, const double *x, int j) {
@@ -183,14 +183,14 @@ void cpsi_line_begin_swim(CpsiLine *line) {
 
 /* [N] What the rounding of the place of node j and of its field leaves of the field's force. */
 static double rounding_at(const CpsiLine *line, int j) {
-    const double *k = &line->field.stiffness[6 * j];
-    const Vec3 x = vec3_at(line->position, j);
-    return ROUNDINGS * DBL_EPSILON * (k[0] + k[2] + k[5]) *
-           fmax(fabs(x.x), fmax(fabs(x.y), fabs(x.z)));
+    const double *k = &line->field.stiffness[6 * j], *x = &line->position[3 * j];
+    const double size[6] = {fabs(k[0]), fabs(k[1]), fabs(k[2]), fabs(k[3]), fabs(k[4]), fabs(k[5])};
+    const Vec3 far = vec3(fabs(x[0]), fabs(x[1]), fabs(x[2]));
+    return ROUNDINGS * DBL_EPSILON * vec3_norm(cpsi_node_field_product(size, far));
 }
 
-double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
-    double changed = 0, most = 0;
+CpsiSwimLack cpsi_line_swim_lack(const CpsiLine *line) {
+    CpsiSwimLack lack = {0};
     see_water(line, line->position);
     for (int j = 0; j < line->n; j++) {
         const NodeInWater seen = seen_at(line, j);
@@ -201,11 +201,11 @@ double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
                    now = vec3_add(vec3_add(seen.drag, seen.wave), added_force(&seen, rate, faster)),
                    used = vec3_axpy(rate * line->inertia.mass[j], faster,
                                     cpsi_line_field_force(line, j, x));
-        changed += cpsi_max_nan(0, vec3_norm(vec3_sub(now, used)) - rounding_at(line, j));
-        most = cpsi_max_nan(most, vec3_norm(now));
+        lack.force += vec3_norm(vec3_sub(now, used));
+        lack.rounding += rounding_at(line, j);
+        lack.largest = cpsi_max_nan(lack.largest, vec3_norm(now));
     }
-    *largest = most;
-    return changed;
+    return lack;
 }
 
 void cpsi_line_approach_swim(CpsiLine *line, double left) {

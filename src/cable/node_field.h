@@ -72,7 +72,9 @@ typedef struct CpsiNodeField {
      * likewise */
     CpsiWaterForces *seen;
     CpsiWaterLoop *see;
-    double left; /* [N] sum over the nodes of what the last program lacked of the flow's forces */
+    /* [N] sum over the nodes of what the last program lacked of the flow's forces, and what of it
+     * the rounding of places may be */
+    double left, rounding;
 } CpsiNodeField;
 
 /* K v for K (6). */

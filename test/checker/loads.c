@@ -3,6 +3,7 @@
  * with K (a - x), and is taken at x + y, y so small that (K y).y/2 is nothing beside energies. */
 #include "loads.h"
 
+#include <float.h>
 #include <math.h>
 #include <netcdf.h>
 #include <stdlib.h>
@@ -329,6 +330,30 @@ Flow loads_flow(const Record *record, size_t j) {
         add_inertia(record, i, against, 1, out.wave);
     }
     return out;
+}
+
+double loads_rounding(const Record *record) {
+    const Loads *loads = record->loads;
+    double sum = 0;
+    if (!loads || !loads->has_drag) return 0;
+    for (size_t j = 0; j < record->nodes; j++) {
+        const double k = record->span[j], pi = 3.14159265358979323846;
+        const Flow flow = loads_flow(record, j);
+        double length = 0, reach = 0, drag = 0;
+        for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < record->elements; i++)
+            length += record->element_length[i] / 2;
+        for (int a = 0; a < 3; a++) {
+            reach += fabs(record->position[j][a]) + fabs(record->reference[j][a]);
+            drag += fabs((double)flow.drag[a]);
+        }
+        const double broad = loads->density * loads->drag[0] * length,
+                     moved = broad * pi / 4 * loads->drag[0] * (loads->added[0] + loads->added[1]),
+                     pressed = broad / 2 * (loads->drag[1] + pi * loads->drag[2]);
+        /* c w w has the slope 2 c w by the velocity w, 2 sqrt(c f) by the force f */
+        sum += DBL_EPSILON * reach *
+               ((record->mass[j] + moved) / (k * k) + 2 * sqrt(pressed * drag) / k);
+    }
+    return sum;
 }
 
 Real loads_work(const Record *record) {

@@ -70,5 +70,7 @@ typedef struct Flow {
     Real drag[3], added[3], wave[3];
 } Flow;
 Flow loads_flow(const Record *record, size_t j);
+/* [N] What the rounding of the places of all nodes leaves of the forces of inertia and flow. */
+double loads_rounding(const Record *record);
 
 #endif
