@@ -372,12 +372,18 @@ static const CpsiIpmReport SWUM = {.outcome = CPSI_IPM_SOLVED};
 /* A program after which another one is due is solved to this share of its errors. */
 static const double ROUGHLY = 0.02;
 
+/* Is the force that the loads of the line lack no more than is allowed, but for rounding in a flow?
+ */
+static bool is_within(const CpsiLine *line, double lack, double allowed) {
+    return lack <= allowed ||
+           (cpsi_line_swims(line) && lack <= allowed + cpsi_line_swim_rounding(line));
+}
+
 /* Has the flow, which is seen at the position, been that of the last program? */
-static bool has_followed(CpsiLine *line, double force, double *left) {
-    const CpsiSwimLack lack = cpsi_line_swim_lack(line);
-    *left = lack.force;
-    line->field.rounding = lack.rounding;
-    return lack.force <= CPSI_FOLLOWED * fmax(force, lack.largest) + lack.rounding;
+static bool has_followed(const CpsiLine *line, double force, double *left) {
+    double largest;
+    *left = cpsi_line_swim_change(line, &largest);
+    return is_within(line, *left, CPSI_FOLLOWED * fmax(force, largest));
 }
 
 /* Go on to the next program. */
@@ -440,10 +446,10 @@ static void turn_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiStepO
     (void)has_followed(line, line->report.certificate.largest_force, left);
 }
 
-/* [N] What the loads of an answer may lack of those of its place. */
-static double allowed_lack(const CpsiLine *line, const CpsiStepOptions *options) {
-    return options->solver.tolerance * line->report.certificate.largest_force +
-           (cpsi_line_swims(line) ? line->field.rounding : 0);
+/* Do the loads of an answer lack no more of those of its place than the tolerance allows? */
+static bool is_near(const CpsiLine *line, const CpsiStepOptions *options, double lack) {
+    return is_within(line, lack,
+                     options->solver.tolerance * line->report.certificate.largest_force);
 }
 
 /* Go on from the solution of the first program. */
@@ -463,8 +469,8 @@ static void follow_swim(CpsiLine *line, CpsiChainProgram *program, const CpsiSte
         solve_with_fallbacks(line, program, options, guess);
     }
     /* what the loads lack is within the tolerance: a start that leads nowhere would lack more */
-    const bool near = left <= allowed_lack(line, options);
-    if (round > 0 && !(certified && near)) turn_swim(line, program, options, &left);
+    if (round > 0 && !(certified && is_near(line, options, left)))
+        turn_swim(line, program, options, &left);
     const CpsOutcome outcome = line->report.outcome;
     end_swim(line, left);
     cpsi_line_certify(line, options, &SWUM);
@@ -543,7 +549,7 @@ static void step_in_flow(CpsiLine *line, CpsiChainProgram *program, const CpsiSt
 /* Loads that are not those of the place are no answer. */
 static void judge_loads(CpsiLine *line, const CpsiStepOptions *options) {
     if (cps_outcome_is_certified(line->report.outcome) &&
-        !(line->report.certificate.load_residual <= allowed_lack(line, options)))
+        !is_near(line, options, line->report.certificate.load_residual))
         line->report.outcome = CPS_OUTCOME_STALLED;
 }
 

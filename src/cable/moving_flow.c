@@ -126,6 +126,13 @@ static inline Vec3 added_force(const NodeInWater *seen, double rate, Vec3 faster
     return vec3_scale(-rate, cpsi_node_field_product(seen->mass, faster));
 }
 
+void cpsi_line_add_water_stiffness(const CpsiLine *line, int j, double k[6]) {
+    const CpsiWaterForces *of = &line->field.seen[j / CPSI_LANES];
+    const int l = j % CPSI_LANES;
+    const double rate = 1 / line->inertia.span[j];
+    for (int i = 0; i < 6; i++) k[i] += rate * (of->slope[i][l] + rate * of->mass[i][l]);
+}
+
 /* Write the field of inertia and water, which was seen there, about y at node j. */
 static void write_node(CpsiLine *line, const double *y, int j) {
     const double rate = 1 / line->inertia.span[j];
@@ -134,10 +141,8 @@ static void write_node(CpsiLine *line, const double *y, int j) {
     double *k = &line->field.stiffness[6 * j], *place = &line->field.place[3 * j], slope[6], by[3];
     (void)cpsi_line_set_inertia(line, j, vec3_at(line->reference, j));
     const Vec3 off = vec3_sub(vec3_at(y, j), vec3_load(place));
-    for (int i = 0; i < 6; i++) {
-        slope[i] = of->slope[i][j % CPSI_LANES];
-        k[i] += rate * (slope[i] + rate * seen.mass[i]);
-    }
+    for (int i = 0; i < 6; i++) slope[i] = of->slope[i][j % CPSI_LANES];
+    cpsi_line_add_water_stiffness(line, j, k);
     vec3_store(by, vec3_axpy(rate, cpsi_node_field_product(slope, off),
                              vec3_add(seen.drag, seen.wave)));
     if (cpsi_symmetric_solve(k, by))
@@ -181,16 +186,8 @@ void cpsi_line_begin_swim(CpsiLine *line) {
     line->field.left = INFINITY;
 }
 
-/* [N] What the rounding of the place of node j and of its field leaves of the field's force. */
-static double rounding_at(const CpsiLine *line, int j) {
-    const double *k = &line->field.stiffness[6 * j], *x = &line->position[3 * j];
-    const double size[6] = {fabs(k[0]), fabs(k[1]), fabs(k[2]), fabs(k[3]), fabs(k[4]), fabs(k[5])};
-    const Vec3 far = vec3(fabs(x[0]), fabs(x[1]), fabs(x[2]));
-    return ROUNDINGS * DBL_EPSILON * vec3_norm(cpsi_node_field_product(size, far));
-}
-
-CpsiSwimLack cpsi_line_swim_lack(const CpsiLine *line) {
-    CpsiSwimLack lack = {0};
+double cpsi_line_swim_change(const CpsiLine *line, double *largest) {
+    double changed = 0, most = 0;
     see_water(line, line->position);
     for (int j = 0; j < line->n; j++) {
         const NodeInWater seen = seen_at(line, j);
@@ -201,11 +198,25 @@ CpsiSwimLack cpsi_line_swim_lack(const CpsiLine *line) {
                    now = vec3_add(vec3_add(seen.drag, seen.wave), added_force(&seen, rate, faster)),
                    used = vec3_axpy(rate * line->inertia.mass[j], faster,
                                     cpsi_line_field_force(line, j, x));
-        lack.force += vec3_norm(vec3_sub(now, used));
-        lack.rounding += rounding_at(line, j);
-        lack.largest = cpsi_max_nan(lack.largest, vec3_norm(now));
+        changed += vec3_norm(vec3_sub(now, used));
+        most = cpsi_max_nan(most, vec3_norm(now));
     }
-    return lack;
+    *largest = most;
+    return changed;
+}
+
+double cpsi_line_swim_rounding(const CpsiLine *line) {
+    double sum = 0;
+    for (int j = 0; j < line->n; j++) {
+        const double *x = &line->position[3 * j], rate = 1 / line->inertia.span[j],
+                     own = line->inertia.mass[j] * rate * rate;
+        double k[6] = {own, 0, own, 0, 0, own};
+        cpsi_line_add_water_stiffness(line, j, k);
+        for (int i = 0; i < 6; i++) k[i] = fabs(k[i]);
+        const Vec3 far = vec3(fabs(x[0]), fabs(x[1]), fabs(x[2]));
+        sum += ROUNDINGS * DBL_EPSILON * vec3_norm(cpsi_node_field_product(k, far));
+    }
+    return sum;
 }
 
 void cpsi_line_approach_swim(CpsiLine *line, double left) {
@@ -234,13 +245,6 @@ void cpsi_line_end_swim(CpsiLine *line, double left) {
         vec3_store(&line->field.wave[3 * j], seen.wave);
         (void)cpsi_line_set_inertia(line, j, vec3_at(line->reference, j));
     }
-}
-
-void cpsi_line_add_water_stiffness(const CpsiLine *line, int j, double k[6]) {
-    const CpsiWaterForces *of = &line->field.seen[j / CPSI_LANES];
-    const int l = j % CPSI_LANES;
-    const double rate = 1 / line->inertia.span[j];
-    for (int i = 0; i < 6; i++) k[i] += rate * (of->slope[i][l] + rate * of->mass[i][l]);
 }
 
 void cpsi_line_settle_swim(CpsiLine *line) {

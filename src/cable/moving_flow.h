@@ -21,14 +21,11 @@ void cpsi_line_see_swim(CpsiLine *line, const double *y);
 void cpsi_line_approach_swim(CpsiLine *line, double left);
 /* What of the flow belongs to an element of the line. */
 CpsiWaterShare cpsi_water_share(const CpsiFlow *flow);
-/* [N] What a program lacked of the forces of the flow: the sum over the nodes of those at the
- * position less those of the program; what of it the rounding of places may be; and the largest of
- * them. */
-typedef struct CpsiSwimLack {
-    double force, rounding, largest;
-} CpsiSwimLack;
-/* See the flow at the position. */
-CpsiSwimLack cpsi_line_swim_lack(const CpsiLine *line);
+/* [N] See the flow at the position: the sum over the nodes of its forces there less those of the
+ * program, and the largest of them. */
+double cpsi_line_swim_change(const CpsiLine *line, double *largest);
+/* [N] What of that the rounding of places may be, where the flow was seen. */
+double cpsi_line_swim_rounding(const CpsiLine *line);
 /* Let the flow's forces at the position, where it was seen, be given loads from now on, and the
  * field inertia alone; and the same where it is yet to be seen. */
 void cpsi_line_end_swim(CpsiLine *line, double left);

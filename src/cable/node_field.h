@@ -72,9 +72,7 @@ typedef struct CpsiNodeField {
      * likewise */
     CpsiWaterForces *seen;
     CpsiWaterLoop *see;
-    /* [N] sum over the nodes of what the last program lacked of the flow's forces, and what of it
-     * the rounding of places may be */
-    double left, rounding;
+    double left; /* [N] sum over the nodes of what the last program lacked of the flow's forces */
 } CpsiNodeField;
 
 /* K v for K (6). */

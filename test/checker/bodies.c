@@ -597,17 +597,6 @@ static void check_motion(Check *c) {
     body_motion_check(&steps, find_in_time, c);
 }
 
-double body_given_load(const Source *source, const BodyData *data, const BodyState *at,
-                       double arm) {
-    const double down = size(source->gravity);
-    double per[3], given[SIX];
-    Real own[SIX];
-    for (int a = 0; a < 3; a++) per[a] = down > 0 ? source->gravity[a] / down : 0;
-    body_load(data, at->position, at->rotation, per, own);
-    for (int i = 0; i < SIX; i++) given[i] = at->load[i] - (double)own[i];
-    return fmax(size(given), size(&given[3]) / arm);
-}
-
 /* [N] M ((x - x*)/k - v*)/k rounds as poses do, which short steps magnify: M the mass of the body
  * and of the water about the reference point, places by the largest coordinate, turns by 1, moments
  * over the arm. */
@@ -633,12 +622,8 @@ static void find_largest(Check *c) {
     for (size_t k = 0; k < c->source->points; k++)
         c->largest = fmax(c->largest, size(c->point[k].load));
     for (size_t k = 0; k < c->bodies->count; k++)
-        c->largest = fmax(fmax(c->largest, body_given_load(c->source, &c->bodies->data[k],
-                                                           &c->now[k], c->arm[k])),
-                          fmax(size(c->now[k].load), size(&c->now[k].load[3]) / c->arm[k]));
-    for (size_t k = 0; k < c->bodies->count; k++)
-        c->largest = fmax(c->largest, fmax(size(c->motion[k].inertia),
-                                           size(&c->motion[k].inertia[3]) / c->arm[k]));
+        c->largest = fmax(c->largest, body_acting(c->source, &c->bodies->data[k], &c->now[k],
+                                                  &c->motion[k], c->arm[k]));
     for (size_t k = 0; k < c->bodies->count; k++)
         if (c->motion[k].span > 0) c->rounding = fmax(c->rounding, rounding_of_inertia(c, k));
 }

@@ -50,11 +50,6 @@ void body_load(const BodyData *data, const Vector position, const double rotatio
 void body_load_beside(const BodyData *data, const Vector position, const double rotation[FOUR],
                       const double side[FOUR], const double gravity[3], Real load[SIX]);
 
-/* [N] The given load on a body, moments over an arm: what is not of weight, buoyancy and water.
- * Another part of the load may cancel it, as the moment of the weight a given moment, so that the
- * whole load does not tell what acts. Where gravity has changed its change counts as given. */
-double body_given_load(const Source *source, const BodyData *data, const BodyState *at, double arm);
-
 /* The matrix of a rotation, a quaternion of any length but 0. */
 void body_matrix(const double rotation[FOUR], Real m[3][3]);
 

@@ -156,6 +156,20 @@ int body_motions_read(const Source *source, size_t n, size_t step, BodyMotion *a
 /* ---- points ---- */
 
 static double size(const double *v) { return hypot(hypot(v[0], v[1]), v[2]); }
+
+double body_acting(const Source *source, const BodyData *data, const BodyState *at,
+                   const BodyMotion *motion, double arm) {
+    const double down = size(source->gravity);
+    double per[3], given[SIX], most = 0;
+    Real own[SIX];
+    for (int a = 0; a < 3; a++) per[a] = down > 0 ? source->gravity[a] / down : 0;
+    body_load(data, at->position, at->rotation, per, own);
+    for (int i = 0; i < SIX; i++) given[i] = at->load[i] - (double)own[i];
+    const double *all[] = {at->load, given, motion->inertia};
+    for (int k = 0; k < 3; k++) most = fmax(most, fmax(size(all[k]), size(&all[k][3]) / arm));
+    return most;
+}
+
 static Real dot(const Real *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static double size_of(const Real *v) { return (double)hypotl(hypotl(v[0], v[1]), v[2]); }
 

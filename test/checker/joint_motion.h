@@ -28,6 +28,12 @@ typedef struct BodyMotion {
 int point_motions_read(const Source *source, size_t step, PointMotion *all, FILE *log);
 int body_motions_read(const Source *source, size_t count, size_t step, BodyMotion *all, FILE *log);
 
+/* [N] The largest of what acts on a body, moments over an arm: its load, what of it is given, which
+ * weight and water may cancel, and its inertia. Where gravity has changed its change counts as
+ * given. */
+double body_acting(const Source *source, const BodyData *data, const BodyState *at,
+                   const BodyMotion *motion, double arm);
+
 /* [s] The length of a step in time; 0 of others. */
 double step_length_of(const Source *source, size_t step);
 

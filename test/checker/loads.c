@@ -8,6 +8,8 @@
 #include <netcdf.h>
 #include <stdlib.h>
 
+static const Real PI = 3.14159265358979323846L;
+
 static int complain(FILE *log, const char *what, const char *name) {
     if (log) fprintf(log, "%s: %s\n", what, name);
     return -1;
@@ -268,11 +270,9 @@ static void add_half(const Record *record, Vector *x, size_t i, const Real *v, c
     speed = sqrtl(speed);
     const Real pressed = (Real)loads->density * record->element_length[i] / 4;
     for (int a = 0; a < 3; a++)
-        out[a] +=
-            pressed * diameter *
-            (across_by * speed * across[a] +
-             (size > 0 ? 3.14159265358979323846L * along_by * fabsl(along) * along * t[a] / size
-                       : 0));
+        out[a] += pressed * diameter *
+                  (across_by * speed * across[a] +
+                   (size > 0 ? PI * along_by * fabsl(along) * along * t[a] / size : 0));
 }
 
 void loads_drag(const Record *record, Vector *x, size_t j, Real *out) {
@@ -290,8 +290,7 @@ static void add_inertia(const Record *record, size_t i, const Real *acceleration
     const Loads *loads = record->loads;
     Real t[3], along = 0;
     const Real size = direction(record->position, i, t), radius = (Real)loads->drag[0] / 2;
-    const Real displaced =
-        3.14159265358979323846L * radius * radius * loads->density * record->element_length[i] / 2;
+    const Real displaced = PI * radius * radius * loads->density * record->element_length[i] / 2;
     for (int a = 0; a < 3; a++) along += size > 0 ? acceleration[a] * t[a] / size : 0;
     for (int a = 0; a < 3; a++) {
         const Real part = size > 0 ? along * t[a] / size : 0;
@@ -337,7 +336,7 @@ double loads_rounding(const Record *record) {
     double sum = 0;
     if (!loads || !loads->has_drag) return 0;
     for (size_t j = 0; j < record->nodes; j++) {
-        const double k = record->span[j], pi = 3.14159265358979323846;
+        const double k = record->span[j], pi = (double)PI;
         const Flow flow = loads_flow(record, j);
         double length = 0, reach = 0, drag = 0;
         for (size_t i = j > 0 ? j - 1 : 0; i <= j && i < record->elements; i++)

@@ -528,16 +528,12 @@ static void find_acting(Points *p) {
         p->acting = fmax(p->acting, acts_in_line(&p->line[i]));
         p->rounding = fmax(p->rounding, rounding_in_line(&p->line[i]));
     }
-    p->acting = fmin(p->acting, p->largest);
     /* beside bodies inextensible lines are never pulled straight, and what acts on the bodies acts
-     * on the points as well */
-    if (p->bodies.count > 0) p->acting = p->largest;
-    for (size_t k = 0; k < p->bodies.count; k++) {
-        const BodyState *at = &p->body[k];
-        const double given = body_given_load(p->source, &p->bodies.data[k], at, INFINITY);
-        p->acting =
-            fmax(fmax(p->acting, given), fmax(size(at->load), size(p->body_motion[k].inertia)));
-    }
+     * on the points as well; their moments are left to bodies.c */
+    p->acting = p->bodies.count > 0 ? p->largest : fmin(p->acting, p->largest);
+    for (size_t k = 0; k < p->bodies.count; k++)
+        p->acting = fmax(p->acting, body_acting(p->source, &p->bodies.data[k], &p->body[k],
+                                                &p->body_motion[k], INFINITY));
 }
 
 static void find_in_time(void *user, const char *what, double said, double expected) {

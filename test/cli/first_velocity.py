@@ -54,9 +54,10 @@ def main():
     swung = math.dist(beside[-1]["lines"]["rope"]["B"]["position_m"], alone[-1]["lines"]["rope"]["B"]["position_m"])
     kept = max(abs(step["kinetic_J"]) for step in still[1:])
     taken = sum(step["ledger_J"]["settling"] for step in still)
+    bounce = 2*MASS*9.81*LENGTH**2/2/1e4  # about the stretch under its weight, from none to twice
     print("beside a line that starts static: %.1e m off one that does, %.1e J of kinetic energy off, %.1e J lost" % (off, error, lost))
     print("alone, from the shape without stretch, it ends %.3f m from there; after a step at rest %.1e J, of %.3f J taken" % (swung, kept, taken))
-    return 0 if off < 1e-8*LENGTH and error < 1e-12*kinetic and lost == 0 and swung < 0.1 and kept < 1e-9 and abs(taken - kinetic) < 1e-9 else 1
+    return 0 if off < 1e-8*LENGTH and error < 1e-12*kinetic and lost == 0 and swung < bounce and kept < 1e-9 and abs(taken - kinetic) < 1e-9 else 1
 
 
 if __name__ == "__main__":
